@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lib/publisher.h"
 
+#include <algorithm>
 #include <chrono>
 #include <random>
 #include <utility>
@@ -104,6 +105,7 @@ CallEnd Publisher::runCall(const std::stop_token& stop) {
     answers_ended_ = false;
     was_connected_ = false;
     chunk_size_ = {};
+    pace_.setRate(0);  // until the server says otherwise
     if (!waiting_) waiting_ = std::move(newest_sent_);
     newest_sent_.reset();
   }
@@ -156,9 +158,18 @@ void Publisher::takeAnswer(const v1::PublishFramesResponse& answer) {
     if (callbacks_.on_accepted) callbacks_.on_accepted(answer.accepted());
   } else if (answer.has_report()) {
     noteReport(answer.report());
-  } else if (answer.has_wanted() && callbacks_.on_wanted) {
-    callbacks_.on_wanted(answer.wanted());
+  } else if (answer.has_wanted()) {
+    noteWanted(answer.wanted());
   }
+}
+
+void Publisher::noteWanted(const v1::Wanted& wanted) {
+  {
+    std::lock_guard lock(mutex_);
+    pace_.setRate(wanted.rate_hz());
+    changed_.notify_all();
+  }
+  if (callbacks_.on_wanted) callbacks_.on_wanted(wanted);
 }
 
 void Publisher::noteReport(const v1::FrameReport& report) {
@@ -175,12 +186,19 @@ void Publisher::noteReport(const v1::FrameReport& report) {
 
 std::optional<WireFrame> Publisher::waitForFrame(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, stop, [&] {
+  const auto isDue = [&] { return finishing_ || steadyNowNs() >= pace_.dueNs(); };
+  const auto hasNext = [&] {
     if (answers_ended_) return true;
     if (waiting_) return in_flight_.size() < options_.in_flight_max;
     return finishing_ && in_flight_.empty();
-  });
+  };
+  changed_.wait(lock, stop, hasNext);
+  while (waiting_ && !answers_ended_ && !stop.stop_requested() && !(isDue() && hasNext())) {
+    const std::chrono::nanoseconds left(std::max<int64_t>(pace_.dueNs() - steadyNowNs(), 1));
+    changed_.wait_for(lock, stop, left, [&] { return answers_ended_ || (isDue() && hasNext()); });
+  }
   if (stop.stop_requested() || answers_ended_) return std::nullopt;
+  pace_.note(steadyNowNs());
   return std::exchange(waiting_, std::nullopt);
 }
 

@@ -20,6 +20,7 @@
 #include "lib/frame_messages.h"
 #include "lib/heartbeat_writer.h"
 #include "lib/retry_loop.h"
+#include "lib/send_pace.h"
 #include "lib/silence_watch.h"
 #include "lib/wire_frame.h"
 #include "viewloom/v1/ingest_service.grpc.pb.h"
@@ -62,6 +63,9 @@ struct PublisherCounts {
 
 // Publisher of one stream. It numbers frames 1, 2, ...
 //
+// It sends no more frames a second than the server uses (proto Wanted). A frame waits for its time,
+// and a newer one replaces it. The last frame before close() does not wait.
+//
 // After a broken connection it reconnects with its session id. It sends the newest frame again if
 // no newer one waits. It sends heartbeats, and treats 5 s without one from the server as a broken
 // connection. While another publisher of this host has the stream, it waits for the name.
@@ -103,6 +107,7 @@ class Publisher {
   std::optional<WireFrame> waitForFrame(const std::stop_token& stop);
   bool sendFrame(HeartbeatWriter& writer, const WireFrame& frame, const std::stop_token& stop);
   void noteReport(const v1::FrameReport& report);
+  void noteWanted(const v1::Wanted& wanted);
 
   const PublisherOptions options_;
   const PublisherCallbacks callbacks_;
@@ -113,6 +118,7 @@ class Publisher {
   std::optional<WireFrame> waiting_;
   std::optional<WireFrame> newest_sent_;  // sent again after a broken connection
   std::set<uint64_t> in_flight_;          // numbers sent in this call and not reported
+  SendPace pace_;
   uint64_t last_number_ = 0;
   bool answers_ended_ = false;
   bool was_connected_ = false;  // in this call

@@ -104,3 +104,24 @@ export function connect(kind, {
   const target = server.startsWith(kScheme) ? server.slice(kScheme.length) : server;
   return new Service(target, credentials, {interceptors: interceptorsOf(token.trim())});
 }
+
+// When the next frame may be sent, at the rate at which the server uses frames.
+export class SendPace {
+  #interval_ms = 0;
+  #sent_ms = -Infinity;
+
+  // Frames a second, as wanted.rate_hz says; 0 = all are used.
+  setRate(rate_hz) {
+    this.#interval_ms = rate_hz > 0 ? 1000 / rate_hz : 0;
+  }
+
+  // Time until the next frame may be sent; not above 0 = now.
+  leftMs() {
+    return this.#sent_ms + this.#interval_ms - performance.now();
+  }
+
+  // A frame is sent now.
+  note() {
+    this.#sent_ms = performance.now();
+  }
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "decode/frame_intake.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <deque>
 #include <memory>
@@ -25,7 +26,21 @@ struct WaitingFrame {
   CollectedFrame collected;
   FrameTimes times;
   ReportFrame report;
+  std::function<void()> on_taken;
 };
+
+// Frames of more px than this take longer than others should wait.
+constexpr uint64_t kLargeFrame_px = uint64_t{1} << 20;
+
+bool isLarge(const FrameFormat& format) {
+  uint64_t px_count = 0;
+  for (const SourceFormat& source : format.sources) {
+    for (const LayerFormat& layer : source.layers) {
+      px_count += std::max(layer.depth.size_px.area(), layer.color.size_px.area());
+    }
+  }
+  return px_count > kLargeFrame_px;
+}
 
 // A frame in the hands of the threads. Each plane is decoded by whoever claims it; what decoded[i]
 // holds is seen by the thread that ends the last plane.
@@ -35,6 +50,7 @@ struct OpenFrame {
       : stream(name),
         planes(wirePlanes(format)),
         decoded(planes.size()),
+        is_large(isLarge(format)),
         unfinished_count(planes.size()) {}
 
   // Formats of planes stay where they are when their frame is moved.
@@ -44,6 +60,7 @@ struct OpenFrame {
   WaitingFrame frame;
   const std::vector<const PlaneFormat*> planes;
   DecodedPlanes decoded;
+  const bool is_large;
   size_t claimed_count = 0;  // guarded by the intake's mutex, as the next
   size_t unfinished_count;
 };
@@ -78,6 +95,8 @@ struct FrameIntake::State {
   std::unordered_map<std::string, LatestMailbox<WaitingFrame>> streams;
   std::deque<std::string> queue;
   std::deque<std::shared_ptr<OpenFrame>> open_frames;  // those with a plane nobody has claimed
+  size_t large_count = 0;      // planes of large frames in the hands of threads
+  size_t large_count_max = 1;  // threads that may have them
   bool closed = false;
   std::vector<std::jthread> threads;  // last: they use what is above
 
@@ -96,20 +115,23 @@ struct FrameIntake::State {
   void decodeUntilClosed(PlaneDecoder& decoder) {
     std::unique_lock lock(mutex);
     for (;;) {
-      work.wait(lock, [this] { return closed || !open_frames.empty() || !queue.empty(); });
-      if (open_frames.empty()) {
-        if (queue.empty()) return;
-        openNextFrame(lock);
-        continue;
-      }
-      const std::shared_ptr<OpenFrame> open = open_frames.front();
+      std::shared_ptr<OpenFrame> open;
+      work.wait(lock, [&] {
+        open = next(lock);
+        return open || (closed && queue.empty() && open_frames.empty());
+      });
+      if (!open) return;
       const size_t plane = open->claimed_count++;
-      if (open->claimed_count == open->planes.size()) open_frames.pop_front();
+      if (open->claimed_count == open->planes.size()) std::erase(open_frames, open);
+      large_count += open->is_large;
       lock.unlock();
       open->decoded[plane] = unlessOutOfMemory([&] {
+        if (plane == 0) open->frame.on_taken();
         return decoder.decode(*open->planes[plane], std::move(open->frame.collected.planes[plane]));
       });
       lock.lock();
+      large_count -= open->is_large;
+      if (open->is_large) work.notify_one();
       if (--open->unfinished_count > 0) continue;
       lock.unlock();
       deliver(*open);
@@ -118,9 +140,23 @@ struct FrameIntake::State {
     }
   }
 
-  void openNextFrame(std::unique_lock<std::mutex>& lock) {
-    const std::string stream = std::move(queue.front());
-    queue.pop_front();
+  // A frame with a plane to decode; nullptr = there is none for now.
+  std::shared_ptr<OpenFrame> next(std::unique_lock<std::mutex>& lock) {
+    do {
+      for (const std::shared_ptr<OpenFrame>& open : open_frames) {
+        if (!open->is_large || large_count < large_count_max) return open;
+      }
+    } while (openNextFrame(lock));
+    return nullptr;
+  }
+
+  // False: no stream has a frame for which there is room.
+  bool openNextFrame(std::unique_lock<std::mutex>& lock) {
+    const auto found = std::ranges::find_if(
+        queue, [this](const std::string& name) { return closed || !sink.isFull(name); });
+    if (found == queue.end()) return false;
+    const std::string stream = std::move(*found);
+    queue.erase(found);
     WaitingFrame waiting = *streams.at(stream).take();
     try {
       const auto open = std::make_shared<OpenFrame>(stream, waiting.collected.format);
@@ -129,10 +165,12 @@ struct FrameIntake::State {
     } catch (const std::bad_alloc&) {
       lock.unlock();
       reportRefused(waiting.report, waiting.collected.format.number, outOfMemory());
+      waiting.on_taken();
       lock.lock();
       finish(stream);
     }
     work.notify_all();  // its other planes are for others
+    return true;
   }
 
   void finish(const std::string& stream) {
@@ -172,6 +210,7 @@ struct FrameIntake::State {
 FrameIntake::FrameIntake(FrameSink& sink, const Clock& clock, BytePool& pool,
                          FrameIntakeOptions options)
     : state_(std::make_unique<State>(sink, clock, pool, std::move(options.on_replaced))) {
+  state_->large_count_max = std::max(options.thread_count, 2U) - 1;
   for (uint32_t i = 0; i < options.thread_count; ++i) {
     state_->threads.emplace_back(
         [state = state_.get(), decoder = std::make_unique<PlaneDecoder>(pool)] {
@@ -186,7 +225,7 @@ FrameIntake::~FrameIntake() {
 }
 
 void FrameIntake::offer(const std::string& stream, CollectedFrame frame, FrameTimes times,
-                        ReportFrame report) {
+                        ReportFrame report, std::function<void()> on_taken) {
   const uint64_t number = frame.format.number;
   std::unique_lock lock(state_->mutex);
   if (state_->closed) {
@@ -194,21 +233,26 @@ void FrameIntake::offer(const std::string& stream, CollectedFrame frame, FrameTi
     report({.number = number,
             .outcome = FrameOutcome::kRefused,
             .reason = "the server is shutting down and takes no more frames"});
+    on_taken();
     return;
   }
   const auto [entry, idle] = state_->streams.try_emplace(stream);
   const std::optional<WaitingFrame> replaced =
-      entry->second.push({std::move(frame), times, std::move(report)});
-  if (idle) {
-    state_->queue.push_back(stream);
-    state_->work.notify_one();
-  }
+      entry->second.push({std::move(frame), times, std::move(report), std::move(on_taken)});
+  if (idle) state_->queue.push_back(stream);
+  state_->work.notify_one();
   lock.unlock();
   if (replaced) {
     state_->on_replaced();
+    replaced->on_taken();
     replaced->report(
         {.number = replaced->collected.format.number, .outcome = FrameOutcome::kReplaced});
   }
+}
+
+void FrameIntake::resume() {
+  std::lock_guard lock(state_->mutex);
+  state_->work.notify_all();
 }
 
 void FrameIntake::close() {

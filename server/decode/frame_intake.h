@@ -21,7 +21,9 @@ struct FrameIntakeOptions {
 };
 
 // Decodes on threads of its own, the planes of a frame side by side. Of each stream one frame waits
-// at most: a newer one replaces it, and it is reported kReplaced. Frames of one stream are decoded
+// at most: a newer one replaces it, and it is reported kReplaced. It waits while the sink is full:
+// no frame is decoded that would only be replaced. Large frames leave one thread, if there are
+// several, to small ones. Frames of one stream are decoded
 // one after the other and reach the sink in the order in which they were offered; one that does not
 // decode, or for which memory runs out, is reported kRefused. A frame gives its reservation back
 // when its last reader lets go of it.
@@ -34,7 +36,13 @@ class FrameIntake {
   ~FrameIntake();
 
   // Fills in times.decoded_ns. `report` is called exactly once, by the intake or by the sink.
-  void offer(const std::string& stream, CollectedFrame frame, FrameTimes times, ReportFrame report);
+  // `on_taken` is called once, on any thread, when the frame waits no longer: another one would not
+  // replace it.
+  void offer(
+      const std::string& stream, CollectedFrame frame, FrameTimes times, ReportFrame report,
+      std::function<void()> on_taken = [] {});
+  // The sink may have room where it had none.
+  void resume();
 
   // Waits until every frame that was accepted has gone to the sink or been reported. Frames offered
   // from now on are reported kRefused.

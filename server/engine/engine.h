@@ -33,6 +33,24 @@ class EngineOutOfMemory : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// A piece of work that is done.
+struct DoneWork {
+  int64_t predicted_ns = 0;
+  int64_t measured_ns = 0;
+};
+
+// The preparation of a frame is given up.
+class PreparationGivenUp : public std::runtime_error {
+ public:
+  PreparationGivenUp() : std::runtime_error("the server is shutting down") {}
+};
+
+// Calls between two pieces of a preparation, on its thread.
+struct PreparationEvents {
+  std::function<void(const DoneWork& work)> on_piece = [](const DoneWork&) {};
+  std::function<bool()> is_given_up = [] { return false; };
+};
+
 // Measurements of a prepared frame.
 struct FrameMeasures {
   SourceStats stats;   // of the first source
@@ -49,9 +67,9 @@ class PreparedFrame {
   virtual void take(FramePtr frame) = 0;
   // Makes room for that frame, unless there is some. Throws EngineOutOfMemory.
   virtual void reserve() = 0;
-  // Prepares it, unless it is. Returns how much of that time it took to copy the frame to a device,
-  // ns. Throws EngineOutOfMemory.
-  virtual int64_t prepare(const Clock& clock) = 0;
+  // Prepares it, unless it is, piece by piece. Returns how much of that time it took to copy the
+  // frame to a device, ns. Throws EngineOutOfMemory and PreparationGivenUp.
+  virtual int64_t prepare(const Clock& clock, const PreparationEvents& events) = 0;
   // Once it is prepared.
   virtual FrameMeasures measures() const = 0;
 };
@@ -95,6 +113,9 @@ struct StripWorkShape {
   uint32_t first_strip = 0;
   uint32_t strip_count = 1;
   uint32_t piece_count = 0;
+  int64_t piece_ns = 0;  // prediction for each piece
+  // The others wait until the first piece is made.
+  bool begins_with_one = false;
 };
 
 // Strips of one atlas that worker threads finish: first all pieces, then the planes can be read.
@@ -106,6 +127,8 @@ class StripWork {
   virtual ~StripWork() = default;
 
   virtual void makePiece(uint32_t piece) = 0;
+  // A piece has taken so long: engines learn from it. From any thread.
+  virtual void notePiece(int64_t measured_ns) = 0;
   // Once all pieces are made: of all its strips together, and the planes of one of them.
   virtual RayCounts counts() const = 0;
   virtual StripPlanes planes(uint32_t strip) const = 0;
@@ -127,13 +150,17 @@ struct AtlasOrder {
   AtlasStrips strips;
   TraceOutputs planes;       // colour in the form that encoders take most directly
   bool is_for_eyes = false;  // of a tracked display
+  std::string picture_key;   // atlases of one picture share it
+  std::string payer;         // pictures of one viewer share it
+  // Called on any thread, once for each step with a prediction.
+  std::function<void(const DoneWork& work)> note_work;
 };
 
 // Result of Making::step().
 struct MakingStep {
-  bool has_room = true;    // else nothing: all memory is lent (EngineEvents::on_room)
-  uint64_t ray_count = 0;  // that were submitted to a device
-  bool is_last = false;    // everything is handed on, or will be
+  bool has_room = true;      // else nothing: all memory is lent (EngineEvents::on_room)
+  int64_t predicted_ns = 0;  // time of a device that was taken; 0 = none
+  bool is_last = false;      // everything is handed on, or will be
 };
 
 // One atlas that is being made. Thread-safety: none; the thread's that began it.
@@ -144,7 +171,10 @@ class Making {
   virtual const TraceOutputs& planes() const = 0;
   // Whether it has begun a strip, and so holds memory that others may wait for.
   virtual bool holdsRoom() const = 0;
+  // Makes the next part, of kPiece_ns at most as far as can be foreseen.
   virtual MakingStep step() = 0;
+  // Nothing more will be made of it. Waits until a device is done with what was submitted.
+  virtual void giveUp() = 0;
 };
 
 // Calls that an engine makes to its user.
@@ -176,9 +206,10 @@ class Engine {
   // Whether such an atlas can be made at once. If not, the engine prepares what it lacks, and calls
   // `then` on any thread when that is there. Called by the thread of begin().
   virtual bool isReady(const AtlasOrder& order, std::function<void()> then) = 0;
-  // Whether the atlas of another tracked display could begin.
-  virtual bool hasRoomForEyes() const = 0;
-  // nullptr: all memory is lent (EngineEvents::on_room).
+  // Whether the atlas of another tracked display of this payer could begin.
+  virtual bool hasRoomForEyes(const std::string& payer) = 0;
+  // nullptr: all memory is lent (EngineEvents::on_room). There is always memory for one small atlas
+  // of each picture, and for one large atlas of each payer.
   virtual std::unique_ptr<Making> begin(AtlasOrder order, HandOn hand_on) = 0;
   // Does one piece of work that lets first pictures come sooner; false: there is none. Called by
   // the thread of begin() while nobody waits for it.

@@ -27,6 +27,7 @@ StreamPreparers::StreamPreparers(const Engines& engines) {
 FrameForms::FrameForms(StreamPreparers& preparers) : takes_(preparers.count()) {
   for (size_t engine = 0; engine < preparers.count(); ++engine) {
     forms_.push_back(preparers.of(engine).make());
+    is_prepared_.push_back(std::make_unique<std::atomic<bool>>(false));
   }
 }
 
@@ -36,8 +37,16 @@ void FrameForms::take(const FramePtr& frame, const Engines& engines) {
   for (size_t engine = 0; engine < forms_.size(); ++engine) {
     takes_[engine] = engines.all[engine]->takes(*frame);
     if (takes_[engine]) forms_[engine]->take(frame);
+    *is_prepared_[engine] = false;
   }
   first().reserve();
+}
+
+int64_t FrameForms::prepare(size_t engine, const Clock& clock,
+                            const PreparationEvents& events) const {
+  const int64_t upload_ns = forms_[engine]->prepare(clock, events);
+  *is_prepared_[engine] = true;
+  return upload_ns;
 }
 
 }  // namespace viewloom

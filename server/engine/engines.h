@@ -2,6 +2,7 @@
 // The engines of this server, and frames in the forms that they take them in.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -34,8 +35,9 @@ class StreamPreparers {
 };
 
 // One frame in the forms of all engines that take it. The form of the first of those is prepared
-// before the frame is resident; the others are when a picture needs them, by the thread of their
-// engine. Thread-safety: none by itself.
+// before the frame is resident; the others are when a picture needs them. Thread-safety:
+// isPrepared() from any thread; a form is prepared by one thread at a time, and read once it is
+// prepared.
 class FrameForms {
  public:
   explicit FrameForms(StreamPreparers& preparers);
@@ -49,9 +51,17 @@ class FrameForms {
   // The one that is prepared first; some engine takes the frame.
   PreparedFrame& first() const { return *forms_[first_]; }
 
+  bool isPrepared(size_t engine) const { return *is_prepared_[engine]; }
+  // Prepares the form of an engine, unless it is. As PreparedFrame::prepare().
+  int64_t prepare(size_t engine, const Clock& clock, const PreparationEvents& events) const;
+  int64_t prepareFirst(const Clock& clock, const PreparationEvents& events) const {
+    return prepare(first_, clock, events);
+  }
+
  private:
   std::vector<std::unique_ptr<PreparedFrame>> forms_;
   std::vector<bool> takes_;
+  std::vector<std::unique_ptr<std::atomic<bool>>> is_prepared_;
   size_t first_ = 0;
 };
 

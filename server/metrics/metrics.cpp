@@ -7,6 +7,7 @@
 #include <prometheus/registry.h>
 #include <prometheus/text_serializer.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,10 @@ const prometheus::Histogram::BucketBoundaries kStageBounds = {
 const prometheus::Histogram::BucketBoundaries kMotionBounds = {
     0.001, 0.002, 0.004, 0.008, 0.012, 0.016, 0.02, 0.03, 0.04, 0.06, 0.1, 0.15, 0.25, 0.5, 1, 2};
 
+// Seconds; pieces are to take 10 ms, and are not to take more than 30 ms.
+const prometheus::Histogram::BucketBoundaries kPieceBounds = {
+    0.0002, 0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.03, 0.05, 0.1, 0.2, 0.5, 1, 2};
+
 using LabelValues = std::vector<const char*>;
 const LabelValues kStages = {"receive", "decode", "upload", "build", "retime",
                              "wait",    "trace",  "encode", "total"};
@@ -31,6 +36,8 @@ const LabelValues kTransports = {"grpc", "web"};
 const LabelValues kRayAnswers = {"hit", "hit_assumed", "hidden", "outside", "empty"};
 const LabelValues kTraceMethods = {"walk", "sweep"};
 const LabelValues kCertificateChanges = {"taken", "refused"};
+const LabelValues kEngineWorks = {"trace", "piece", "pack", "build"};
+const LabelValues kPayerClasses = {"server", "local", "remote"};
 const LabelValues kHttpAnswers = {"success", "redirect", "client_error", "server_error"};
 
 const LabelValues kMemoryUses = {"program",  "messages", "frames",  "structures",
@@ -79,6 +86,20 @@ Labelled<Stage, Histogram> stageHistograms(prometheus::Registry& registry) {
   return labelled<Stage, Histogram>(family, "stage", kStages,
                                     std::make_index_sequence<Labelled<Stage, Histogram>::kSize>(),
                                     kStageBounds);
+}
+
+Labelled<EngineWork, Histogram> pieceHistograms(prometheus::Registry& registry, const char* name,
+                                                const char* help) {
+  auto& family = prometheus::BuildHistogram().Name(name).Help(help).Register(registry);
+  return labelled<EngineWork, Histogram>(
+      family, "work", kEngineWorks,
+      std::make_index_sequence<Labelled<EngineWork, Histogram>::kSize>(), kPieceBounds);
+}
+
+PayerClass classOf(const std::vector<Payer>& payers) {
+  if (payers.empty() || payers.front().isServer()) return PayerClass::kServer;
+  const bool are_local = std::ranges::all_of(payers, &Payer::isLocal);
+  return are_local ? PayerClass::kLocal : PayerClass::kRemote;
 }
 
 Histogram outputDelayHistogram(prometheus::Registry& registry) {
@@ -134,6 +155,9 @@ Metrics::Metrics()
                                            "method", kTraceMethods)),
       atlases_encoded(counter(store_->registry, "viewloom_atlases_encoded_total",
                               "Atlases encoded, one per distinct picture and encoding.")),
+      atlases_given_up(counter(store_->registry, "viewloom_atlases_given_up_total",
+                               "Atlases that were begun and not finished, because nobody watched "
+                               "them any more.")),
       bands_encoded(counter(store_->registry, "viewloom_bands_encoded_total", "Bands encoded.")),
       encoded_bytes(
           counter(store_->registry, "viewloom_encoded_bytes_total", "Bytes of all encoded bands.")),
@@ -193,12 +217,32 @@ Metrics::Metrics()
       connections_refused(
           counters<Transport>(store_->registry, "viewloom_connections_refused_total",
                               "Connections closed at once, because their port had too many.",
-                              "transport", kTransports)) {}
+                              "transport", kTransports)),
+      engine_seconds(counters<PayerClass>(store_->registry, "viewloom_engine_seconds_total",
+                                          "Time of engines and their threads, by whom it was for.",
+                                          "payer", kPayerClasses)),
+      piece(pieceHistograms(store_->registry, "viewloom_piece_seconds",
+                            "Time of the pieces that the engines' work is cut into, as measured.")),
+      predicted_piece(pieceHistograms(store_->registry, "viewloom_predicted_piece_seconds",
+                                      "The same, as predicted when they began.")),
+      longest_piece(gauges<EngineWork>(store_->registry, "viewloom_longest_piece_seconds",
+                                       "The longest piece since the start.", "work",
+                                       kEngineWorks)) {}
 
 Metrics::~Metrics() = default;
 
 std::string Metrics::text() const {
   return prometheus::TextSerializer().Serialize(store_->registry.Collect());
+}
+
+// One of two longest pieces at one moment may be lost.
+void Metrics::observePiece(EngineWork work, const std::vector<Payer>& payers,
+                           const PieceTimes& times) const {
+  const double seconds = static_cast<double>(times.measured_ns) * kSecondsPerNs;
+  engine_seconds[classOf(payers)].add(seconds);
+  piece[work].observe(seconds);
+  predicted_piece[work].observe(static_cast<double>(times.predicted_ns) * kSecondsPerNs);
+  if (seconds > longest_piece[work].value()) longest_piece[work].set(seconds);
 }
 
 void Metrics::observeOutputDelay(int64_t duration_ns) const {

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/memory_use.h"
+#include "base/payer.h"
 #include "base/trace_method.h"
 
 namespace prometheus {
@@ -85,7 +87,17 @@ enum class Transport : uint8_t { kGrpc, kWeb, kCount };
 enum class RayAnswer : uint8_t { kHit, kHitAssumed, kHidden, kOutside, kEmpty, kCount };
 // Outcome of a change of the certificate's files.
 enum class CertificateChange : uint8_t { kTaken, kRefused, kCount };
+// Kinds of pieces that engines' time is shared out in: of a device, of worker threads that make
+// pictures, that pack them, of builds of structures.
+enum class EngineWork : uint8_t { kTrace, kPiece, kPack, kBuild, kCount };
+// Whom work was for: the server itself, peers on this machine, all others.
+enum class PayerClass : uint8_t { kServer, kLocal, kRemote, kCount };
 enum class HttpAnswer : uint8_t { kSuccess, kRedirect, kClientError, kServerError, kCount };
+
+struct PieceTimes {
+  int64_t predicted_ns = 0;
+  int64_t measured_ns = 0;
+};
 
 // All metrics of a server, made once by whoever composes it. Each field is named like its metric:
 // frames_received is viewloom_frames_received_total.
@@ -109,6 +121,7 @@ class Metrics {
   Counter structures_retimed;  // of those, for times between frames: things move by themselves
   Labelled<TraceMethod, Counter> atlases_traced;  // {method}
   Counter atlases_encoded;
+  Counter atlases_given_up;  // begun, but not finished: nobody watched them any more
   Counter bands_encoded;
   Counter encoded_bytes;
   Labelled<RayAnswer, Counter> rays;          // {answer}; shares are ratios of their rates
@@ -139,6 +152,14 @@ class Metrics {
   Gauge grpc_connections;                            // open now
   Labelled<Transport, Counter> connections_refused;  // {transport}; over the limit of their port
 
+  Labelled<PayerClass, Counter> engine_seconds;     // {payer}; of engines and their threads
+  Labelled<EngineWork, Histogram> piece;            // viewloom_piece_seconds{work}; as measured
+  Labelled<EngineWork, Histogram> predicted_piece;  // {work}; as predicted when they began
+  Labelled<EngineWork, Gauge> longest_piece;        // {work}; since the start, seconds
+
+  // A piece of work for any of these.
+  void observePiece(EngineWork work, const std::vector<Payer>& payers,
+                    const PieceTimes& times) const;
   void observeOutputDelay(int64_t duration_ns) const;
   void observeStage(Stage which, int64_t duration_ns) const;
 };

@@ -139,9 +139,7 @@ void AtlasPublisher::publishInOrder(const AtlasRun& run) {
   const auto of_picture = pending_.find(run.job.picture_key);
   if (of_picture == pending_.end()) return;  // given up
   std::deque<Pending>& runs = of_picture->second;
-  for (Pending& pending : runs) {
-    if (pending.run.get() == &run) pending.is_complete = true;
-  }
+  for (Pending& pending : runs) pending.is_complete |= pending.run.get() == &run;
   publishCompleted(runs);
   if (runs.empty()) pending_.erase(of_picture);
 }
@@ -175,6 +173,35 @@ void AtlasPublisher::giveUp(AtlasRun& run, const absl::Status& status) {
     links_.broadcaster.refuse(output.display->id, status);
   }
   on_complete_(run);
+}
+
+void AtlasPublisher::giveUpUnwatched() {
+  std::vector<AtlasRunPtr> given_up;  // let go after the lock: their tickets may report
+  {
+    std::lock_guard lock(mutex_);
+    const auto isWatched = [&](const AtlasOutput& output) {
+      return links_.broadcaster.display(output.display->id) != nullptr;
+    };
+    for (auto& [picture_key, runs] : pending_) {
+      std::erase_if(runs, [&](const Pending& pending) {
+        if (std::ranges::any_of(pending.run->outputs, isWatched)) return false;
+        pending.run->giveUp();
+        given_up.push_back(pending.run);
+        return true;
+      });
+    }
+    std::erase_if(pending_, [](const auto& entry) { return entry.second.empty(); });
+  }
+  if (!given_up.empty()) links_.metrics.atlases_given_up.add(double(given_up.size()));
+  for (const AtlasRunPtr& run : given_up) on_complete_(*run);
+}
+
+void AtlasPublisher::giveUpAll() {
+  std::lock_guard lock(mutex_);
+  for (const auto& [picture_key, runs] : pending_) {
+    for (const Pending& pending : runs) pending.run->giveUp();
+    links_.metrics.atlases_given_up.add(double(runs.size()));
+  }
 }
 
 void AtlasPublisher::dropAll() {

@@ -32,6 +32,10 @@ class AtlasPublisher {
   // Memory ran out for the run: it will not be completed, and its displays end with this status.
   // Atlases behind it go on. Nothing happens to a run that is complete, or given up.
   void giveUp(AtlasRun& run, const absl::Status& status);
+  // Gives up the runs whose displays nobody watches any more. `on_complete` is called for them.
+  void giveUpUnwatched();
+  // Gives up all runs; they stay until dropAll().
+  void giveUpAll();
   // Abandons the runs that will not be completed.
   void dropAll();
 

@@ -11,6 +11,10 @@ uint32_t ceilDivide(uint32_t value, uint32_t by) {
   return (value + by - 1) / by;
 }
 
+const Claim* claimOfRun(const AtlasRunPtr& run) {
+  return &run->claim;
+}
+
 AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
   AtlasOutput output;
   output.band_row_count = bandRowCount(display->encoding);
@@ -24,7 +28,10 @@ AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
 
 AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
                    std::vector<ActiveDisplayPtr> displays)
-    : job(std::move(atlas_job)), picture(std::move(resolved)), display_pose(pose) {
+    : job(std::move(atlas_job)),
+      picture(std::move(resolved)),
+      display_pose(pose),
+      claim(claimOf(job)) {
   // Planes of Y'CbCr lie together for a whole atlas, and pair its rows.
   const bool is_one_image = picture->layout->image_count == 1;
   planes.color = is_one_image ? directForm(displays.front()->encoding) : ColorForm::kRgba;
@@ -38,9 +45,14 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
     strip_row_count = std::max(strip_row_count, outputs.back().band_row_count);
   }
   strips = AtlasStrips(*picture->layout, strip_row_count);
-  strips_left_ = strips.count();
-  on_device = {.deadline_ns = job.deadline_ns, .is_tracked = isTracked(), .turn = kTurnRays};
-  at_work = {.deadline_ns = job.deadline_ns, .is_tracked = isTracked(), .turn = kTurn_ns};
+  for (size_t output = 0; output < outputs.size(); ++output) {
+    uint32_t rank = 0;
+    for (const AtlasPlane plane : planesOf(outputs[output].display->encoding)) {
+      packs.push_back({output, plane, rank++});
+    }
+  }
+  packs_left_ = uint32_t(strips.count() * packs.size());
+  claim.is_tracked = isTracked();
 }
 
 void AtlasRun::noteTraced(const RayCounts& strip_counts, int64_t now_ns) {
@@ -51,7 +63,7 @@ void AtlasRun::noteTraced(const RayCounts& strip_counts, int64_t now_ns) {
 }
 
 void AtlasRun::abandon() {
-  is_abandoned_ = true;
+  giveUp();
   for (const AtlasOutput& output : outputs) {
     if (output.atlas) output.atlas->abandon();
   }
@@ -76,25 +88,31 @@ void BegunRuns::clear() {
   runs_.clear();
 }
 
-bool BegunRuns::hasTracked() const {
-  return std::any_of(runs_.begin(), runs_.end(),
-                     [](const AtlasRunPtr& run) { return run->isTracked(); });
+bool BegunRuns::hasTracked(const Payers& payers) const {
+  return std::ranges::any_of(runs_, [&](const AtlasRunPtr& run) {
+    return run->isTracked() && run->claim.payers == payers;
+  });
 }
 
-Turns::Line<AtlasRunPtr> BegunRuns::lineUp() const {
-  return turns_.lineUp(runs_, [](const AtlasRunPtr& run) { return &run->on_device; });
+std::vector<AtlasRunPtr> BegunRuns::inOrder() const {
+  std::vector<AtlasRunPtr> left = runs_;
+  std::vector<AtlasRunPtr> ordered;
+  while (!left.empty()) {
+    const auto next = left.begin() + (shares_.next(left, claimOfRun) - left.data());
+    ordered.push_back(std::move(*next));
+    left.erase(next);
+  }
+  return ordered;
+}
+
+AtlasRunPtr BegunRuns::first() const {
+  const AtlasRunPtr* const first = shares_.next(runs_, claimOfRun);
+  return first == nullptr ? nullptr : *first;
 }
 
 const Claim* BegunRuns::firstClaim() const {
-  const AtlasRunPtr* const first = lineUp().first;
-  return first == nullptr ? nullptr : &(*first)->on_device;
-}
-
-AtlasRunPtr BegunRuns::inSlot() const {
-  const auto run = std::find_if(runs_.begin(), runs_.end(), [](const AtlasRunPtr& begun) {
-    return begun->making && begun->making->holdsRoom();
-  });
-  return run == runs_.end() ? nullptr : *run;
+  const AtlasRunPtr run = first();
+  return run == nullptr ? nullptr : &run->claim;
 }
 
 }  // namespace viewloom

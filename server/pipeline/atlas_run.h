@@ -18,7 +18,7 @@
 #include "publish/broadcaster.h"
 #include "publish/growing_atlas.h"
 #include "schedule/atlas_job.h"
-#include "schedule/turns.h"
+#include "schedule/fair_shares.h"
 
 namespace viewloom {
 
@@ -29,6 +29,13 @@ struct AtlasOutput {
   uint32_t band_row_count = 0;  // divides the run's
   uint32_t bands_per_image = 0;
   uint32_t bands_per_plane = 0;
+};
+
+// A plane of each strip, packed as one output asked for.
+struct PackedPlane {
+  size_t output = 0;  // place in AtlasRun::outputs
+  AtlasPlane plane = AtlasPlane::kColor;
+  uint32_t rank = 0;  // among the planes of the output
 };
 
 // Made in strips, for all displays of the picture at once.
@@ -46,11 +53,13 @@ class AtlasRun {
 
   // Strips are made: what all of them have seen, together.
   void noteTraced(const RayCounts& strip_counts, int64_t now_ns);
-  // It will not be completed: work on it is left out from now on.
+  // Nobody needs it any more: what is left of it is not made. From any thread.
+  void giveUp() { is_given_up_ = true; }
+  bool isGivenUp() const { return is_given_up_; }
+  // Gives it up, and tells its viewers that it will not be completed.
   void abandon();
-  bool isAbandoned() const { return is_abandoned_; }
-  // True for the last strip of the atlas.
-  bool noteEncoded() { return --strips_left_ == 0; }
+  // A plane of a strip is packed. True for the last one of the atlas.
+  bool noteEncoded() { return --packs_left_ == 0; }
 
   AtlasJob job;
   PicturePtr picture;       // final once its first rays are submitted
@@ -60,19 +69,19 @@ class AtlasRun {
   // the atlas is being made, the form that the engine gives.
   TraceOutputs planes;
   AtlasStrips strips;
+  std::vector<PackedPlane> packs;  // of each strip
   TraceMethod method = TraceMethod::kWalk;
   int64_t begun_ns = 0;
   PlanPtr plan;                    // of the picture, by the loop's engine
   std::unique_ptr<Making> making;  // from when there was room until the last step
-  Claim on_device;                 // in rays
-  Claim at_work;                   // before worker threads, in ns; EncodeQueue's
+  Claim claim;                     // of the engines' time; does not change
 
   RayCounts counts() const;
   int64_t tracedNs() const;
 
  private:
-  std::atomic<uint32_t> strips_left_;
-  std::atomic<bool> is_abandoned_ = false;
+  std::atomic<uint32_t> packs_left_;
+  std::atomic<bool> is_given_up_ = false;
   mutable std::mutex mutex_;
   RayCounts counts_;
   int64_t traced_ns_ = 0;  // when the last strip was seen done
@@ -84,24 +93,28 @@ using AtlasRunPtr = std::shared_ptr<AtlasRun>;
 // Thread-safety: none; the picture loop's.
 class BegunRuns {
  public:
+  // The shares outlive it.
+  explicit BegunRuns(const FairShares& shares) : shares_(shares) {}
+
   void add(AtlasRunPtr run) { runs_.push_back(std::move(run)); }
   void remove(const AtlasRun& run);
   // Lets go of them, and of what their making holds.
   void clear();
   bool isEmpty() const { return runs_.empty(); }
 
-  bool hasTracked() const;
-  Turns::Line<AtlasRunPtr> lineUp() const;
-  // The claim of the first in line; nullptr = nothing has begun.
+  // One of a tracked display of these payers.
+  bool hasTracked(const Payers& payers) const;
+  // The one that goes first; nullptr = nothing has begun.
+  AtlasRunPtr first() const;
   const Claim* firstClaim() const;
-  // One that parts have been made of and holds memory, if there is one.
-  AtlasRunPtr inSlot() const;
-  // A part of it was submitted.
-  void note(AtlasRun& run, uint64_t ray_count) { turns_.note(run.on_device, int64_t(ray_count)); }
+  // In the order in which they go.
+  std::vector<AtlasRunPtr> inOrder() const;
+  // All that have begun.
+  const std::vector<AtlasRunPtr>& all() const { return runs_; }
 
  private:
+  const FairShares& shares_;
   std::vector<AtlasRunPtr> runs_;
-  Turns turns_;  // in rays
 };
 
 }  // namespace viewloom

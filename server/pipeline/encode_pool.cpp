@@ -5,10 +5,10 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "base/thread_name.h"
+#include "base/thread_time.h"
 #include "pipeline/within_memory.h"
 
 namespace viewloom {
@@ -50,8 +50,9 @@ struct EncodePool::StripPixels {
   }
 };
 
-EncodePool::EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, uint32_t thread_count)
-    : links_(links), publisher_(publisher), bytes_(kKeptBandCount) {
+EncodePool::EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, FairShares& shares,
+                       uint32_t thread_count)
+    : links_(links), publisher_(publisher), bytes_(kKeptBandCount), tasks_(shares) {
   links_.memory.addIdle(bytes_.idleMemory());
   for (uint32_t i = 0; i < thread_count; ++i) {
     threads_.emplace_back([this] {
@@ -80,72 +81,64 @@ void EncodePool::stop() {
 void EncodePool::run() {
   BandEncoder encoder(bytes_);
   while (auto task = tasks_.pop()) {
-    const AtlasRunPtr run = task->batch->run;
-    // By a clock that nobody turns by hand: it is no time that anybody is told.
-    const auto begin = std::chrono::steady_clock::now();
+    const int64_t begun_ns = threadTimeNs();
     serve(*task, encoder);
+    note(*task, threadTimeNs() - begun_ns);
     finish(*std::move(task));
-    const auto duration = std::chrono::steady_clock::now() - begin;
-    tasks_.noteServed(*run, std::chrono::nanoseconds(duration).count());
   }
+}
+
+void EncodePool::note(const EncodeTask& task, int64_t duration_ns) {
+  tasks_.noteServed(task, duration_ns);
+  links_.metrics.observePiece(task.is_strip ? EngineWork::kPack : EngineWork::kPiece,
+                              task.batch->run->claim.payers,
+                              {.predicted_ns = task.predicted_ns, .measured_ns = duration_ns});
 }
 
 // Work that runs out of memory costs its own atlas alone.
 void EncodePool::serve(const EncodeTask& task, BandEncoder& encoder) {
-  AtlasRun& run = *task.batch->run;
-  const absl::Status status = withinMemory([&] {
-    if (!run.isAbandoned()) task.is_strip ? packStrip(task, encoder) : makePiece(task);
-  });
-  if (!status.ok()) publisher_.giveUp(run, status);
+  const absl::Status status = withinMemory(
+      [&] { task.is_strip ? pack(task, encoder) : task.batch->work->makePiece(task.index); });
+  if (!status.ok()) publisher_.giveUp(*task.batch->run, status);
 }
 
 // Room for the next atlas before this one goes out.
 void EncodePool::finish(EncodeTask task) {
   const AtlasRunPtr run = task.batch->run;
-  if (!task.is_strip) return tasks_.noteMade(*task.batch);  // others may pack and publish at once
+  if (!task.is_strip) return tasks_.noteMade(*task.batch);  // after the last, others may pack
   task.batch.reset();
-  if (!run->noteEncoded() || run->isAbandoned()) return;
+  if (!run->noteEncoded() || run->isGivenUp()) return;
   const absl::Status status = withinMemory([&] { publisher_.complete(*run); });
   if (!status.ok()) publisher_.giveUp(*run, status);
 }
 
-void EncodePool::makePiece(const EncodeTask& task) {
-  task.batch->work->makePiece(task.index);
-}
-
-void EncodePool::packStrip(const EncodeTask& task, BandEncoder& encoder) {
+void EncodePool::pack(const EncodeTask& task, BandEncoder& encoder) {
   AtlasRun& run = *task.batch->run;
   const StripWork& work = *task.batch->work;
-  if (task.index == 0) run.noteTraced(work.counts(), links_.clock.nowNs());
+  if (task.index == 0 && task.pack == 0) run.noteTraced(work.counts(), links_.clock.nowNs());
   const uint32_t strip = work.shape.first_strip + task.index;
   const StripPlanes planes = work.planes(strip);
   BandPixels color =
       rowsOf(colorPixels(planes.rgba, planes.ycbcr, planes.color_px, run.planes.color),
              planes.first_row, run.strips.rowsOf(strip).row_count);
   color.first_row = run.strips.rowInImage(strip);
-  encode(run, {*run.picture->layout, planes, run.strips.imageOf(strip), color}, encoder);
+  encode(run, {*run.picture->layout, planes, run.strips.imageOf(strip), color},
+         run.packs[task.pack], encoder);
 }
 
-void EncodePool::encode(AtlasRun& run, const StripPixels& strip, BandEncoder& encoder) {
-  for (AtlasOutput& output : run.outputs) encodeOutput(run, strip, output, encoder);
-}
-
-void EncodePool::encodeOutput(AtlasRun& run, const StripPixels& strip, AtlasOutput& output,
-                              BandEncoder& encoder) {
+void EncodePool::encode(AtlasRun& run, const StripPixels& strip, const PackedPlane& packed,
+                        BandEncoder& encoder) {
+  AtlasOutput& output = run.outputs[packed.output];
   const EncodingSpec& encoding = output.display->encoding;
-  uint32_t plane_rank = 0;
-  for (const AtlasPlane plane : planesOf(encoding)) {
-    const BandPixels pixels = strip.pixels(plane);
-    for (uint32_t row = 0; row < pixels.row_count; row += output.band_row_count) {
-      const BandPixels band = rowsOf(pixels, row, output.band_row_count);
-      const uint32_t index =
-          strip.image * output.bands_per_image + band.first_row / output.band_row_count;
-      EncodedBand packed = encoder.encode(band, encoding, *run.picture->layout);
-      links_.metrics.bands_encoded.add();
-      links_.metrics.encoded_bytes.add(static_cast<double>(packed.bytes->size()));
-      output.atlas->put(plane_rank * output.bands_per_plane + index, std::move(packed.bytes));
-    }
-    ++plane_rank;
+  const BandPixels pixels = strip.pixels(packed.plane);
+  for (uint32_t row = 0; row < pixels.row_count; row += output.band_row_count) {
+    const BandPixels band = rowsOf(pixels, row, output.band_row_count);
+    const uint32_t index =
+        strip.image * output.bands_per_image + band.first_row / output.band_row_count;
+    EncodedBand bytes = encoder.encode(band, encoding, *run.picture->layout);
+    links_.metrics.bands_encoded.add();
+    links_.metrics.encoded_bytes.add(static_cast<double>(bytes.bytes->size()));
+    output.atlas->put(packed.rank * output.bands_per_plane + index, std::move(bytes.bytes));
   }
 }
 

@@ -16,7 +16,8 @@ namespace viewloom {
 // Thread-safety: all methods may be called from any thread.
 class EncodePool {
  public:
-  EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, uint32_t thread_count);
+  EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, FairShares& shares,
+             uint32_t thread_count);
   ~EncodePool() { stop(); }
 
   // Finished by as many threads as come free, then packed by them.
@@ -30,12 +31,11 @@ class EncodePool {
 
   void run();
   void serve(const EncodeTask& task, BandEncoder& encoder);
+  void pack(const EncodeTask& task, BandEncoder& encoder);
+  void encode(AtlasRun& run, const StripPixels& strip, const PackedPlane& packed,
+              BandEncoder& encoder);
+  void note(const EncodeTask& task, int64_t duration_ns);
   void finish(EncodeTask task);
-  void makePiece(const EncodeTask& task);
-  void packStrip(const EncodeTask& task, BandEncoder& encoder);
-  void encode(AtlasRun& run, const StripPixels& strip, BandEncoder& encoder);
-  void encodeOutput(AtlasRun& run, const StripPixels& strip, AtlasOutput& output,
-                    BandEncoder& encoder);
 
   const PipelineLinks& links_;
   AtlasPublisher& publisher_;

@@ -12,11 +12,17 @@ namespace {
 // To be woken takes a thread about as long, and it may be put on a core that is busy.
 constexpr std::chrono::microseconds kLookout{100};
 
+uint64_t packedPx(const EncodeTask& task) {
+  const AtlasRun& run = *task.batch->run;
+  const uint32_t strip = task.batch->work->shape.first_strip + task.index;
+  return uint64_t{run.picture->layout->size_px.width} * run.strips.rowsOf(strip).row_count;
+}
+
 }  // namespace
 
 void EncodeQueue::push(StripBatchPtr batch) {
   std::lock_guard lock(mutex_);
-  if (is_closed_) return;
+  if (is_closed_ || batch->run->isGivenUp()) return;
   batches_.push_back(std::move(batch));
   noteFilled();
 }
@@ -28,7 +34,10 @@ std::optional<EncodeTask> EncodeQueue::pop() {
   std::unique_lock lock(mutex_);
   std::optional<EncodeTask> task;
   while (!(task = take())) {
-    if (is_closed_ && batches_.empty()) return std::nullopt;
+    if (is_closed_ && batches_.empty()) {
+      filled_.notify_all();  // what was left may have been given up
+      return std::nullopt;
+    }
     waitForMore(lock);
   }
   const bool is_more = next() != nullptr;
@@ -62,35 +71,62 @@ void EncodeQueue::noteFilled() {
 }
 
 std::optional<EncodeTask> EncodeQueue::take() {
+  dropGivenUp();
   StripBatchPtr batch = next();
   if (!batch) return std::nullopt;
   EncodeTask task{.batch = batch};
   if (batch->next_piece < batch->work->shape.piece_count) {
     task.index = batch->next_piece++;
-    return task;
+    task.predicted_ns = batch->work->shape.piece_ns;
+  } else {
+    takePack(task);
   }
-  task.is_strip = true;
-  task.index = batch->next_strip++;
-  if (batch->next_strip == batch->work->shape.strip_count) std::erase(batches_, batch);
+  shares_.begin(batch->run->claim, task.predicted_ns);
   return task;
 }
 
+void EncodeQueue::takePack(EncodeTask& task) {
+  StripBatch& batch = *task.batch;
+  task.is_strip = true;
+  task.index = batch.next_strip;
+  task.pack = batch.next_pack++;
+  const PackedPlane& packed = batch.run->packs[task.pack];
+  task.predicted_ns = pack_costs_.predictNs(batch.run->outputs[packed.output].display->encoding,
+                                            packed.plane, packedPx(task));
+  if (batch.next_pack < batch.run->packs.size()) return;
+  batch.next_pack = 0;
+  if (++batch.next_strip == batch.work->shape.strip_count) std::erase(batches_, task.batch);
+}
+
+// Those that hold them do not wait for the last of their work.
+void EncodeQueue::dropGivenUp() {
+  std::erase_if(batches_, [](const StripBatchPtr& batch) { return batch->run->isGivenUp(); });
+}
+
 StripBatchPtr EncodeQueue::next() const {
-  const auto line = turns_.lineUp(batches_, [](const StripBatchPtr& batch) {
-    return batch->hasPart() ? &batch->run->at_work : nullptr;
+  const StripBatchPtr* const next = shares_.next(batches_, [](const StripBatchPtr& batch) {
+    return batch->hasPart() ? &batch->run->claim : nullptr;
   });
-  const StripBatchPtr* const next = line.in_turn != nullptr ? line.in_turn : line.first;
   return next == nullptr ? nullptr : *next;
 }
 
 void EncodeQueue::noteMade(StripBatch& batch) {
   std::lock_guard lock(mutex_);
-  if (++batch.made_count == batch.work->shape.piece_count) noteFilled();
+  ++batch.made_count;
+  const bool was_awaited = batch.made_count == 1 && batch.work->shape.begins_with_one;
+  if (was_awaited || batch.made_count == batch.work->shape.piece_count) noteFilled();
 }
 
-void EncodeQueue::noteServed(AtlasRun& run, int64_t duration_ns) {
-  std::lock_guard lock(mutex_);
-  turns_.note(run.at_work, duration_ns);
+void EncodeQueue::noteServed(const EncodeTask& task, int64_t duration_ns) {
+  const AtlasRun& run = *task.batch->run;
+  shares_.finish(run.claim, task.predicted_ns, duration_ns);
+  if (!task.is_strip) {
+    task.batch->work->notePiece(duration_ns);
+    return;
+  }
+  const PackedPlane& packed = run.packs[task.pack];
+  pack_costs_.note(run.outputs[packed.output].display->encoding, packed.plane, packedPx(task),
+                   duration_ns);
 }
 
 void EncodeQueue::close() {

@@ -12,7 +12,8 @@
 #include <vector>
 
 #include "pipeline/atlas_run.h"
-#include "schedule/turns.h"
+#include "pipeline/pack_costs.h"
+#include "schedule/fair_shares.h"
 
 namespace viewloom {
 
@@ -22,8 +23,9 @@ struct StripBatch {
   StripBatch(AtlasRunPtr run_of_strips, StripWorkPtr handed_on)
       : run(std::move(run_of_strips)), work(std::move(handed_on)) {}
 
-  // A piece to make or a strip to pack; while the last pieces are made there is none.
+  // A piece to make or a plane to pack; while the last pieces are made there is none.
   bool hasPart() const {
+    if (work->shape.begins_with_one && next_piece == 1 && made_count == 0) return false;
     return next_piece < work->shape.piece_count || made_count == work->shape.piece_count;
   }
 
@@ -32,30 +34,35 @@ struct StripBatch {
   uint32_t next_piece = 0;
   uint32_t made_count = 0;
   uint32_t next_strip = 0;  // counts from the first of the work
+  size_t next_pack = 0;     // of that strip: place in AtlasRun::packs
 };
 
 using StripBatchPtr = std::shared_ptr<StripBatch>;
 
-// A part of a batch: a piece of its work, or, once all are made, a strip to pack.
+// A part of a batch: a piece of its work, or, once all are made, a plane of a strip to pack.
 struct EncodeTask {
   StripBatchPtr batch;
   bool is_strip = false;
   uint32_t index = 0;  // of the piece, or the strip; counts from the first of the batch
+  size_t pack = 0;     // of the strip: place in AtlasRun::packs
+  int64_t predicted_ns = 0;
 };
 
-// The atlas that is due soonest goes first, of tracked displays before all others, also between two
-// parts of another. An atlas that takes long lets the others go first, and has half of the time.
+// Atlases go in fair shares, part by part. What was given up is dropped between two parts.
 // Thread-safety: all methods may be called from any thread.
 class EncodeQueue {
  public:
+  // The shares outlive it.
+  explicit EncodeQueue(FairShares& shares) : shares_(shares) {}
+
   // Dropped once the queue is closed.
   void push(StripBatchPtr batch);
   // Waits for something to do. Empty once the queue is closed and everything in it is done.
   std::optional<EncodeTask> pop();
   // A piece that was popped is made.
   void noteMade(StripBatch& batch);
-  // A part of the atlas that was popped is done, and took that long.
-  void noteServed(AtlasRun& run, int64_t duration_ns);
+  // A part that was popped is done, and took that long.
+  void noteServed(const EncodeTask& task, int64_t duration_ns);
   // Nothing more comes in; what is inside is still handed out.
   void close();
   // Lets go of everything inside.
@@ -66,16 +73,19 @@ class EncodeQueue {
   void waitForMore(std::unique_lock<std::mutex>& lock);
   void noteFilled();
   std::optional<EncodeTask> take();
+  void takePack(EncodeTask& task);
+  void dropGivenUp();
   // The batch that the next part is of; nullptr = there is none.
   StripBatchPtr next() const;
 
+  FairShares& shares_;
   std::mutex mutex_;
   std::condition_variable filled_;
   // Changes, under the mutex, whenever there may be something to take where there was nothing.
   std::atomic<uint32_t> fill_count_ = 0;
   uint32_t lookout_count_ = 0;          // of threads that will look at it before they sleep
   std::vector<StripBatchPtr> batches_;  // of which parts are left, as they came
-  Turns turns_;                         // of those who pop, in ns
+  PackCosts pack_costs_;
   bool is_closed_ = false;
 };
 

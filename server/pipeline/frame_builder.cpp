@@ -16,9 +16,9 @@ std::shared_ptr<FrameForms> FrameBuilder::takeSlot(SlotPool<FrameForms>& slots,
 }
 
 void FrameBuilder::build(const Frame& frame, std::shared_ptr<FrameForms> slot,
-                         ResidentStructure& structure) const {
+                         const PreparationEvents& events, ResidentStructure& structure) const {
   const int64_t started_ns = links_.clock.nowNs();
-  structure.upload_ns = slot->first().prepare(links_.clock);
+  structure.upload_ns = slot->prepareFirst(links_.clock, events);
   structure.built_at_ns = links_.clock.nowNs();
   structure.build_ns = structure.built_at_ns - started_ns - structure.upload_ns;
 

@@ -21,7 +21,7 @@ class FrameBuilder {
 
   // Prepares the frame that the slot was taken for, and says in `structure` what was made of it and
   // when.
-  void build(const Frame& frame, std::shared_ptr<FrameForms> slot,
+  void build(const Frame& frame, std::shared_ptr<FrameForms> slot, const PreparationEvents& events,
              ResidentStructure& structure) const;
 
   WorkerPool& workers() const { return *links_.engines.workers; }

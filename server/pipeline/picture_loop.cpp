@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/picture_loop.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/log.h"
@@ -15,6 +16,17 @@ const char* threadName(TraceMethod method) {
   return method == TraceMethod::kSweep ? "sweep" : "walk";
 }
 
+absl::Status cannotRender() {
+  return absl::FailedPreconditionError(
+      "this server cannot render such a display of this stream; choose another display");
+}
+
+std::string nameOf(const Payers& payers) {
+  std::string names;
+  for (const Payer& payer : payers) names += strCat(payer.name(), " ");
+  return names;
+}
+
 }  // namespace
 
 PictureLoop::PictureLoop(const PipelineLinks& links, const PictureDesk& desk, size_t engine,
@@ -23,6 +35,7 @@ PictureLoop::PictureLoop(const PipelineLinks& links, const PictureDesk& desk, si
       desk_(desk),
       rank_(engine),
       engine_(*links.engines.all[engine]),
+      begun_(desk.shares),
       wake_up_(wake_up),
       thread_([this](const std::stop_token& stop) {
         nameThread(threadName(engine_.method()));
@@ -54,27 +67,25 @@ void PictureLoop::run(const std::stop_token& stop) {
 }
 
 bool PictureLoop::makePart(bool may_begin) {
+  dropGivenUp();
   if (may_begin) beginDueJobs();
-  const Turns::Line<AtlasRunPtr> line = begun_.lineUp();
-  if (line.first == nullptr) return false;
-  const AtlasRunPtr first = *line.first;
-  if (line.in_turn != nullptr && makePartOf(AtlasRunPtr(*line.in_turn))) return true;
+  const AtlasRunPtr first = begun_.first();
+  if (!first) return false;
   if (makePartOf(first)) return true;
-  // There is no room for it: an atlas that holds some makes room.
-  const AtlasRunPtr holder = begun_.inSlot();
-  return holder && makePartOf(holder);
+  // There is no room for it: others make room.
+  const std::vector<AtlasRunPtr> runs = begun_.inOrder();
+  return std::ranges::any_of(runs, [this](const AtlasRunPtr& run) { return makePartOf(run); });
 }
 
 bool PictureLoop::makePartOf(const AtlasRunPtr& run) {
   bool is_made = true;
-  const absl::Status status = run->isAbandoned()
-                                  ? absl::ResourceExhaustedError("its memory ran out elsewhere")
-                                  : withinMemory([&] { is_made = makeStep(run); });
+  const absl::Status status = withinMemory([&] { is_made = makeStep(run); });
   if (!status.ok()) giveUp(run, status);
   return is_made;
 }
 
 void PictureLoop::giveUp(const AtlasRunPtr& run, const absl::Status& status) {
+  if (run->making) run->making->giveUp();
   run->making = nullptr;
   begun_.remove(*run);
   desk_.publisher.giveUp(*run, status);
@@ -92,15 +103,33 @@ bool PictureLoop::makeStep(const AtlasRunPtr& run) {
   if (!run->making && !beginMaking(run)) return false;
   const MakingStep step = run->making->step();
   if (!step.has_room) return false;
-  begun_.note(*run, step.ray_count);
+  if (step.predicted_ns > 0) desk_.shares.begin(run->claim, step.predicted_ns);
   if (step.is_last) finish(run);
   return true;
+}
+
+void PictureLoop::dropGivenUp() {
+  if (desk_.has_demand_changed.exchange(false)) desk_.publisher.giveUpUnwatched();
+  const std::vector<AtlasRunPtr> runs = begun_.all();
+  for (const AtlasRunPtr& run : runs) {
+    if (!run->isGivenUp()) continue;
+    if (run->making) run->making->giveUp();
+    finish(run);
+  }
+}
+
+void PictureLoop::noteWork(const AtlasRun& run, const DoneWork& work) const {
+  desk_.shares.finish(run.claim, work.predicted_ns, work.measured_ns);
+  links_.metrics.observePiece(EngineWork::kTrace, run.claim.payers,
+                              {.predicted_ns = work.predicted_ns, .measured_ns = work.measured_ns});
 }
 
 // False while there is no room for it.
 bool PictureLoop::beginMaking(const AtlasRunPtr& run) {
   latchEyes(*run);
-  run->making = engine_.begin(orderOf(*run), [run, &desk = desk_](StripWorkPtr work) {
+  AtlasOrder order = orderOf(*run);
+  order.note_work = [this, run](const DoneWork& work) { noteWork(*run, work); };
+  run->making = engine_.begin(std::move(order), [run, &desk = desk_](StripWorkPtr work) {
     const absl::Status status = withinMemory(
         [&] { desk.encoders.push(std::make_shared<StripBatch>(run, std::move(work))); });
     if (!status.ok()) desk.publisher.giveUp(*run, status);
@@ -117,26 +146,39 @@ AtlasOrder PictureLoop::orderOf(const AtlasRun& run) const {
                    .frames = {},
                    .strips = run.strips,
                    .planes = run.planes,
-                   .is_for_eyes = run.isTracked()};
+                   .is_for_eyes = run.isTracked(),
+                   .picture_key = run.job.picture_key,
+                   .payer = nameOf(run.claim.payers),
+                   .note_work = nullptr};
   for (const ResidentStructure* structure : structuresOf(run.job)) {
     order.frames.push_back(structure->forms->of(rank_));
   }
   return order;
 }
 
-// One head at a time: who is next depends on the poses that there are when it is his turn.
-bool PictureLoop::hasRoomForEyes() const {
-  return !begun_.hasTracked() && engine_.hasRoomForEyes();
+bool PictureLoop::hasRoomForEyes(const Payers& payers) const {
+  return !begun_.hasTracked(payers) && engine_.hasRoomForEyes(nameOf(payers));
 }
 
 void PictureLoop::beginDueJobs() {
-  while (auto job = desk_.board.begin(rank_, begun_.firstClaim(), hasRoomForEyes())) {
-    const std::string picture_key = job->picture_key;
-    bool has_begun = false;
-    const absl::Status status = withinMemory([&] { has_begun = begin(*job); });
-    if (!status.ok()) refusePicture(picture_key, status);
-    if (!has_begun) desk_.board.finish(picture_key);
+  const JobBoard::HasRoom has_room = [this](const Payers& payers) {
+    return hasRoomForEyes(payers);
+  };
+  std::vector<AtlasJob> prepared;
+  {
+    std::lock_guard lock(prepared_mutex_);
+    prepared.swap(prepared_);
   }
+  for (AtlasJob& job : prepared) beginOrFinish(job);
+  while (auto job = desk_.board.begin(rank_, begun_.firstClaim(), has_room)) beginOrFinish(*job);
+}
+
+void PictureLoop::beginOrFinish(AtlasJob& job) {
+  const std::string picture_key = job.picture_key;
+  bool has_begun = false;
+  const absl::Status status = withinMemory([&] { has_begun = begin(job); });
+  if (!status.ok()) refusePicture(picture_key, status);
+  if (!has_begun) desk_.board.finish(picture_key);
 }
 
 bool PictureLoop::begin(AtlasJob& job) {
@@ -147,6 +189,7 @@ bool PictureLoop::begin(AtlasJob& job) {
   const UnservedDisplays unserved = desk_.served.find(job);
   const std::vector<ActiveDisplayPtr>& displays = unserved.displays;
   if (displays.empty()) return false;
+  if (waitsForNewer(job)) return true;
   const Aim aim = aimOf(*displays.front(), job);
   const auto picture = desk_.pictures.get(*displays.front(), *job.structure, aim, unserved.eyes);
   std::optional<PlannedPicture> planned;
@@ -155,20 +198,21 @@ bool PictureLoop::begin(AtlasJob& job) {
     handOver(std::move(job), planned->engine);
     return true;
   }
-  const absl::Status status = picture.ok() ? prepare(job, planned) : picture.status();
-  if (!status.ok()) {
+  if (!planned) {
     desk_.served.note(job, unserved);
-    for (const ActiveDisplayPtr& display : displays) {
-      links_.broadcaster.refuse(display->id, status);
-    }
+    refuse(displays, picture.ok() ? cannotRender() : picture.status());
     return false;
+  }
+  if (ResidentPtr structure = unprepared(job)) {
+    prepareForm(std::move(job), std::move(structure), displays);
+    return true;
   }
   auto run = std::make_shared<AtlasRun>(std::move(job), *picture, aim.display_pose, displays);
   run->plan = planned->plan;
   run->method = engine_.method();
   run->begun_ns = links_.clock.nowNs();
   if (!isReady(*run)) {
-    putBack(*run);
+    putBack(std::move(run->job));
     return true;
   }
   desk_.served.note(run->job, unserved);
@@ -177,6 +221,16 @@ bool PictureLoop::begin(AtlasJob& job) {
   }
   begun_.add(run);
   desk_.publisher.begin(std::move(run));
+  desk_.on_begin();
+  return true;
+}
+
+// Eyes wait for nothing, and ticks show frames as they are.
+bool PictureLoop::waitsForNewer(AtlasJob& job) {
+  if (job.has_asked || job.is_tracked || job.tick) return false;
+  job.has_asked = true;
+  if (!desk_.ask_newer(job.structure->stream, job.picture_key)) return false;
+  putBack(std::move(job));
   return true;
 }
 
@@ -188,8 +242,8 @@ bool PictureLoop::isReady(const AtlasRun& run) {
                          });
 }
 
-void PictureLoop::putBack(AtlasRun& run) {
-  if (desk_.board.putBack(std::move(run.job), rank_)) {
+void PictureLoop::putBack(AtlasJob job) {
+  if (desk_.board.putBack(std::move(job), rank_)) {
     links_.metrics.replaced[HandOver::kTrace].add();
   }
 }
@@ -201,21 +255,37 @@ void PictureLoop::handOver(AtlasJob job, size_t engine) {
   desk_.wake(engine);
 }
 
-// Structures that this engine was not asked for so far.
-absl::Status PictureLoop::prepare(const AtlasJob& job,
-                                  const std::optional<PlannedPicture>& planned) const {
-  if (!planned) {
-    return absl::FailedPreconditionError(
-        "this server cannot render such a display of this stream; choose another display");
+ResidentPtr PictureLoop::unprepared(const AtlasJob& job) const {
+  for (const ResidentPtr& structure : {job.structure, job.before}) {
+    if (structure && !structure->forms->isPrepared(rank_)) return structure;
   }
-  try {
-    for (const ResidentStructure* structure : structuresOf(job)) {
-      structure->forms->of(rank_)->prepare(links_.clock);
-    }
-  } catch (const EngineOutOfMemory& error) {
-    return absl::ResourceExhaustedError(strCat("this display cannot be rendered: ", error.what()));
+  return nullptr;
+}
+
+// The job has begun for the board: newer ones of its picture wait, and do not replace it for ever.
+void PictureLoop::prepareForm(AtlasJob job, ResidentPtr structure,
+                              std::vector<ActiveDisplayPtr> displays) {
+  Claim claim = claimOf(job);
+  const auto kept = std::make_shared<AtlasJob>(std::move(job));
+  desk_.prepare_form(
+      {.structure = std::move(structure),
+       .engine = rank_,
+       .claim = std::move(claim),
+       .then = [this, kept, displays = std::move(displays)](const absl::Status& status) {
+         if (!status.ok()) refuse(displays, status);
+         {
+           std::lock_guard lock(prepared_mutex_);
+           prepared_.push_back(std::move(*kept));
+         }
+         wake_up_.ring();
+       }});
+}
+
+void PictureLoop::refuse(const std::vector<ActiveDisplayPtr>& displays,
+                         const absl::Status& status) const {
+  for (const ActiveDisplayPtr& display : displays) {
+    links_.broadcaster.refuse(display->id, status);
   }
-  return absl::OkStatus();
 }
 
 // The eyes as they are when its first rays go, which may have waited for room. Those that cannot be

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// One engine at work: atlases by deadline, part by part.
+// One engine at work: atlases in fair shares, part by part.
 #pragma once
 
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "pipeline/encode_pool.h"
 #include "pipeline/picture_cache.h"
 #include "pipeline/plan_cache.h"
+#include "pipeline/structure_loop.h"
 #include "pipeline/wake_up.h"
 #include "schedule/job_board.h"
 #include "schedule/served_displays.h"
@@ -27,8 +29,17 @@ struct PictureDesk {
   ServedDisplays& served;
   AtlasPublisher& publisher;
   EncodePool& encoders;
+  FairShares& shares;
+  std::function<void(FormOrder order)> prepare_form;
+  // A picture is to begin. True: a newer frame of the stream waits and is built first; then the
+  // picture is finished on the board, to begin with that.
+  std::function<bool(const std::string& stream, const std::string& picture_key)> ask_newer;
+  // An atlas has begun, so that the next frame may be built.
+  std::function<void()> on_begin;
   // Wakes the loop of an engine: there is a job for it.
   std::function<void(size_t engine)> wake;
+  // Displays have come or gone: atlases that nobody watches are to be given up.
+  std::atomic<bool>& has_demand_changed;
   // Whatever has begun, loops end at once: an engine has failed.
   const std::atomic<bool>& is_abandoned;
 };
@@ -45,21 +56,32 @@ class PictureLoop {
   // Finishes the atlases that have begun, and no others.
   void stop();
   // Forgets what will not be finished, once the loop has ended.
-  void dropAll() { begun_.clear(); }
+  void dropAll() {
+    begun_.clear();
+    prepared_.clear();
+  }
 
  private:
   void run(const std::stop_token& stop);
-  // Makes the next part of the atlas that is due soonest, as turns have it. Between two parts an
-  // atlas with a sooner deadline, or of a tracked display, may begin, or any other if what has
-  // begun is long, if may_begin. False when there is nothing to do or no room.
+  // Makes the next part of the atlas that goes first. Between two parts another atlas may begin
+  // that goes before all of them, if may_begin. False when there is nothing to do or no room.
   bool makePart(bool may_begin);
   bool makePartOf(const AtlasRunPtr& run);
+  void dropGivenUp();
   void beginDueJobs();
-  bool hasRoomForEyes() const;
+  void beginOrFinish(AtlasJob& job);
+  bool hasRoomForEyes(const Payers& payers) const;
   // False when no atlas comes of the job.
   bool begin(AtlasJob& job);
   void handOver(AtlasJob job, size_t engine);
-  absl::Status prepare(const AtlasJob& job, const std::optional<PlannedPicture>& planned) const;
+  // Whether the job waits for a newer frame, and so does not begin yet.
+  bool waitsForNewer(AtlasJob& job);
+  void refuse(const std::vector<ActiveDisplayPtr>& displays, const absl::Status& status) const;
+  // A structure of the job whose form for this engine is still to be prepared; nullptr = there is
+  // none.
+  ResidentPtr unprepared(const AtlasJob& job) const;
+  // Has it prepared; then the job may begin, or its displays are refused.
+  void prepareForm(AtlasJob job, ResidentPtr structure, std::vector<ActiveDisplayPtr> displays);
   void latchEyes(AtlasRun& run);
   // Stops the making of a run for which memory ran out.
   void giveUp(const AtlasRunPtr& run, const absl::Status& status);
@@ -67,10 +89,11 @@ class PictureLoop {
   bool makeStep(const AtlasRunPtr& run);
   bool beginMaking(const AtlasRunPtr& run);
   AtlasOrder orderOf(const AtlasRun& run) const;
+  void noteWork(const AtlasRun& run, const DoneWork& work) const;
   // Whether the engine makes it at once; else what it lacks is being prepared, and the picture may
   // begin when that is there.
   bool isReady(const AtlasRun& run);
-  void putBack(AtlasRun& run);
+  void putBack(AtlasJob job);
   void finish(const AtlasRunPtr& run);
 
   const PipelineLinks& links_;
@@ -78,6 +101,8 @@ class PictureLoop {
   const size_t rank_;
   Engine& engine_;
   BegunRuns begun_;  // the thread's
+  std::mutex prepared_mutex_;
+  std::vector<AtlasJob> prepared_;  // jobs whose form was prepared; guarded by prepared_mutex_
   WakeUp& wake_up_;
   std::jthread thread_;  // last: it uses all of the above
 };

@@ -2,13 +2,17 @@
 #include "pipeline/pipeline.h"
 
 #include <atomic>
+#include <chrono>
 #include <deque>
+#include <map>
+#include <mutex>
 #include <utility>
 
 #include "base/log.h"
 #include "display/atlas_layout.h"
 #include "pipeline/encode_pool.h"
 #include "pipeline/frame_builder.h"
+#include "pipeline/grace.h"
 #include "pipeline/picture_loop.h"
 #include "pipeline/retime_loop.h"
 #include "pipeline/stream_retimer.h"
@@ -21,6 +25,9 @@ namespace viewloom {
 namespace {
 
 using OnFailure = std::function<void(const std::exception&)>;
+
+// For what has begun when the pipeline drains; the service manager waits longer.
+constexpr std::chrono::seconds kGrace{4};
 
 PipelineLinks withFailure(PipelineLinks links, OnFailure on_failure) {
   links.on_failure = std::move(on_failure);
@@ -37,8 +44,8 @@ struct Pipeline::Loops {
                           [this](const std::exception& error) { fail(error); })),
         engine_wake_ups(links.engines.all.size()),
         publisher(links, [this](const AtlasRun& run) { noteComplete(run); }),
-        encoders(links, publisher, options.encode_thread_count),
-        board(links.clock, links.engines.all.size()),
+        encoders(links, publisher, shares, options.encode_thread_count),
+        board(links.clock, shares, links.engines.all.size()),
         pictures(options.atlas_limits),
         plans(links.engines),
         served(links.broadcaster),
@@ -48,19 +55,28 @@ struct Pipeline::Loops {
              served,
              publisher,
              encoders,
+             shares,
+             [this](FormOrder order) { structures.prepareForm(std::move(order)); },
+             [this](const std::string& stream, const std::string& picture_key) {
+               return askNewer(stream, picture_key);
+             },
+             [this] { structure_bell.ring(); },
              [this](size_t engine) { engine_wake_ups[engine].ring(); },
+             has_demand_changed,
              has_failed},
         streams(links.engines, links.memory, options.structure_slots_per_stream,
-                [this] { structure_wake_up.ring(); }),
+                [this] { structure_bell.ring(); }),
         frames(links),
         retimes(links.metrics,
                 [this](AtlasJob job, const DisplaySpec& spec) { retime(std::move(job), spec); }),
         ticks(links, [this](const AtlasJob& job,
                             const ActiveDisplayPtr& display) { return offerTick(job, display); }),
-        structures(links, streams, frames, structure_wake_up,
-                   [this](const PipelineStream& stream, const FrameTicketPtr& ticket) {
-                     serve(stream, ticket);
-                   }) {
+        structures(
+            {links, streams, frames, board, shares, structure_bell},
+            [this](const PipelineStream& stream, const FrameTicketPtr& ticket) {
+              serve(stream, ticket);
+            },
+            [this](const std::string& stream) { beginAsked(stream); }) {
     for (size_t engine = 0; engine < links.engines.all.size(); ++engine) {
       links.engines.all[engine]->connect(
           {.on_room = [this, engine] { engine_wake_ups[engine].ring(); },
@@ -81,15 +97,24 @@ struct Pipeline::Loops {
   // Wakes those whom it concerns. False: there was nothing new.
   bool offer(AtlasJob job);
   void noteComplete(const AtlasRun& run);
+  // A picture could begin. True: the newest frame of its stream is built first.
+  bool askNewer(const std::string& stream, const std::string& picture_key);
+  // The pictures of a stream that waited for that may begin.
+  void beginAsked(const std::string& stream);
   void ringEngines();
   void fail(const std::exception& error);
 
   const OnFailure on_failure;
   const PipelineLinks links;
-  WakeUp structure_wake_up;
+  ChangeBell structure_bell;
   std::deque<WakeUp> engine_wake_ups;
   std::atomic<bool> is_draining = false;
   std::atomic<bool> has_failed = false;
+  std::atomic<bool> has_demand_changed = false;
+  std::function<void()> on_room = [] {};  // see FrameSink
+  std::mutex asked_mutex;
+  std::multimap<std::string, std::string> asked;  // pictures by stream; guarded by asked_mutex
+  FairShares shares;
   AtlasPublisher publisher;
   EncodePool encoders;
   JobBoard board;
@@ -114,10 +139,11 @@ void Pipeline::Loops::fail(const std::exception& error) {
 void Pipeline::Loops::offerFrame(const FrameOrigin& origin, FramePtr frame,
                                  const FrameTicketPtr& ticket) {
   if (is_draining) return ticket->noteRefused("the server is shutting down");
-  const auto replaced =
-      streams.open(origin.stream)->inbox.push({std::move(frame), origin.session, ticket});
+  const PipelineStreamPtr stream = streams.open(origin.stream);
+  stream->notePublisher(origin.publisher);
+  const auto replaced = stream->inbox.push({std::move(frame), origin.session, ticket});
   if (replaced) links.metrics.replaced[HandOver::kStructure].add();
-  structure_wake_up.ring();
+  structure_bell.ring();
 }
 
 bool Pipeline::Loops::offer(AtlasJob job) {
@@ -130,6 +156,32 @@ bool Pipeline::Loops::offer(AtlasJob job) {
 // The next of its picture may begin, whichever engine makes it.
 void Pipeline::Loops::noteComplete(const AtlasRun& run) {
   if (run.isWaitedFor()) board.finish(run.job.picture_key);
+  ringEngines();
+}
+
+bool Pipeline::Loops::askNewer(const std::string& name, const std::string& picture_key) {
+  const PipelineStreamPtr stream = streams.find(name);
+  if (!stream || stream->inbox.empty() || is_draining) return false;
+  {
+    std::lock_guard lock(asked_mutex);
+    asked.emplace(name, picture_key);
+  }
+  stream->is_asked = true;
+  structure_bell.ring();
+  return true;
+}
+
+void Pipeline::Loops::beginAsked(const std::string& stream) {
+  on_room();  // the frame that waited is in hand
+  std::vector<std::string> picture_keys;
+  {
+    std::lock_guard lock(asked_mutex);
+    const auto [begin, end] = asked.equal_range(stream);
+    for (auto picture = begin; picture != end; ++picture) picture_keys.push_back(picture->second);
+    asked.erase(begin, end);
+  }
+  if (picture_keys.empty()) return;
+  for (const std::string& picture_key : picture_keys) board.finish(picture_key);
   ringEngines();
 }
 
@@ -202,11 +254,24 @@ uint64_t Pipeline::preparedBytes(const FrameFormat& format) const {
   return loops_->links.engines.preparedBytes(format);
 }
 
+bool Pipeline::isFull(const std::string& stream_name) const {
+  const PipelineStreamPtr stream = loops_->streams.find(stream_name);
+  return stream && !stream->inbox.empty();
+}
+
+void Pipeline::onRoom(std::function<void()> then) {
+  loops_->on_room = std::move(then);
+}
+
 void Pipeline::forgetStream(const std::string& stream) {
   loops_->streams.forget(stream);
+  loops_->on_room();
 }
 
 void Pipeline::serveDisplays(const std::string& stream_name) {
+  loops_->has_demand_changed = true;
+  loops_->ringEngines();
+  loops_->structure_bell.ring();
   if (const PipelineStreamPtr stream = loops_->streams.find(stream_name)) {
     loops_->serve(*stream, nullptr);
   }
@@ -224,8 +289,13 @@ void Pipeline::serveEyes(uint64_t display_id) {
   loops_->offer(jobForEyes(*display, resident, loops_->links.clock.nowNs()));
 }
 
+// Work that has begun is finished if that does not take long.
 void Pipeline::drain() {
   if (loops_->is_draining.exchange(true)) return;
+  const Grace grace(kGrace, [this] {
+    loops_->publisher.giveUpAll();
+    loops_->ringEngines();
+  });
   loops_->structures.stop();
   loops_->ticks.stop();
   loops_->retimes.stop();

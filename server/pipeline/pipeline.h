@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -30,6 +31,8 @@ class Pipeline final : public AtlasMaker {
   ~Pipeline() override;
 
   void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override;
+  bool isFull(const std::string& stream) const override;
+  void onRoom(std::function<void()> then) override;
   void forgetStream(const std::string& stream) override;
   // See Engines::preparedBytes.
   uint64_t preparedBytes(const FrameFormat& format) const;

@@ -64,7 +64,7 @@ ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t car
   auto carried = std::make_shared<ResidentStructure>(structure);
   carried->moving_frame = nullptr;
   carried->retimer = nullptr;
-  builder_.build(*frame, std::move(slot), *carried);
+  builder_.build(*frame, std::move(slot), {}, *carried);
   carried->retime_ns = retimed_ns - started_ns;
   // Bad samples were counted when the frame came.
   carried->stats.bad_samples_count = structure.stats.bad_samples_count;

@@ -21,6 +21,16 @@ void PipelineStream::setMotion(const CameraMotion& motion) {
   newest_.motion = motion;
 }
 
+void PipelineStream::notePublisher(const Payer& publisher) {
+  std::lock_guard lock(mutex_);
+  publisher_ = publisher;
+}
+
+Claim PipelineStream::claim() const {
+  std::lock_guard lock(mutex_);
+  return {.payers = {publisher_}, .stream = name};
+}
+
 StreamTable::StreamTable(const Engines& engines, MemoryBudget& memory, uint32_t slots_per_stream,
                          std::function<void()> on_slot_return)
     : engines_(engines),

@@ -2,17 +2,22 @@
 // The streams that have frames: what waits of each, and its newest structure.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "admission/memory_budget.h"
+#include "base/cost_estimate.h"
 #include "base/latest_mailbox.h"
 #include "base/slot_pool.h"
 #include "engine/engines.h"
+#include "schedule/build_gate.h"
+#include "schedule/fair_shares.h"
 #include "schedule/stream_frames.h"
 
 namespace viewloom {
@@ -22,8 +27,8 @@ namespace viewloom {
 // the stream waits.
 inline constexpr uint32_t kHeldByFurtherEngine = 2;
 
-// Thread-safety: inbox, slots, newest(), setNewest() and setMotion() from any thread; the other
-// fields are the structure loop's.
+// Thread-safety: inbox, slots, the claim, newest(), setNewest() and setMotion() from any thread;
+// the other fields are the structure loop's, which has one thread at a time work on a stream.
 class PipelineStream {
  public:
   PipelineStream(std::string stream_name, const Engines& engines, uint32_t least_slot_count,
@@ -38,18 +43,32 @@ class PipelineStream {
   ResidentPtr resident() const { return newest().structure; }
   void setNewest(StreamInstant newest);
   void setMotion(const CameraMotion& motion);
+  // The publisher pays for its structures.
+  void notePublisher(const Payer& publisher);
+  Claim claim() const;
 
   const std::string name;
   const uint32_t slot_count;  // without the structure before the newest
   LatestMailbox<OfferedFrame> inbox;
   SlotPool<FrameForms> slots;
-  StreamPreparers preparers;               // of those slots
+  StreamPreparers preparers;  // of those slots
+  // Under the loop's mutex.
+  bool is_in_hand = false;                 // a thread works on it
+  bool takes_long = false;                 // its next frame does
+  std::optional<uint64_t> served_in_vain;  // change that was the last when there was no slot
   StreamFrames frames;                     // since they were taken from the inbox
+  BuildGate gate;
+  std::atomic<bool> is_asked = false;      // a picture could begin with a newer frame; any thread's
+  CostEstimate px_cost{kBuiltPxStart_ns};  // of a px of a frame
   std::shared_ptr<StreamRetimer> retimer;  // since a frame came in which something moves by itself
 
  private:
+  // Until something was measured.
+  static constexpr double kBuiltPxStart_ns = 30;
+
   mutable std::mutex mutex_;
   StreamInstant newest_;
+  Payer publisher_;
 };
 
 using PipelineStreamPtr = std::shared_ptr<PipelineStream>;

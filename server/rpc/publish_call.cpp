@@ -170,6 +170,7 @@ void PublishCall::offerFrame() {
     std::lock_guard lock(mutex_);
     if (ending()) return;
     ++unreported_count_;
+    frame_waits_ = true;
   }
   parts_.directory.countReceived(stream_);
   parts_.metrics.frames_received.add();
@@ -183,6 +184,10 @@ void PublishCall::offerFrame() {
         countOutcome(parts, stream, report.outcome);
         const auto call = std::static_pointer_cast<PublishCall>(weak.lock());
         if (call) call->tell(report);
+      },
+      [weak = weak_from_this()] {
+        const auto call = std::static_pointer_cast<PublishCall>(weak.lock());
+        if (call) call->onTaken();
       });
 }
 
@@ -194,6 +199,12 @@ void PublishCall::tell(const FrameReport& report) {
   if (!status.ok()) end(status);
 }
 
+void PublishCall::onTaken() {
+  std::lock_guard lock(mutex_);
+  frame_waits_ = false;
+  advance();
+}
+
 void PublishCall::onReport(const FrameReport& report) {
   {
     std::lock_guard lock(mutex_);
@@ -203,7 +214,14 @@ void PublishCall::onReport(const FrameReport& report) {
     replies_.push_back(bytesFromMessage(response));
     advance();
   }
-  if (report.outcome == FrameOutcome::kTraced) refreshWanted();
+  if (noteOutcome(report.outcome) || report.outcome == FrameOutcome::kTraced) refreshWanted();
+}
+
+// True if the publisher is to send at another rate.
+bool PublishCall::noteOutcome(FrameOutcome outcome) {
+  if (outcome == FrameOutcome::kRefused) return false;
+  std::lock_guard lock(mutex_);
+  return used_rate_.note(outcome != FrameOutcome::kReplaced, parts_.clock.nowNs());
 }
 
 absl::Status PublishCall::handleHalfClose() {
@@ -266,8 +284,9 @@ void PublishCall::tick() {
                                     "go on publishing")));
 }
 
+// A frame that would only replace one that waits is not received.
 bool PublishCall::wantsToRead() const {
-  return unreported_count_ + replies_.size() < kOpenReportsMax;
+  return !frame_waits_ && unreported_count_ + replies_.size() < kOpenReportsMax;
 }
 
 std::string PublishCall::stream() {
@@ -285,7 +304,11 @@ void PublishCall::refreshWanted() {
   }
   v1::PublishFramesResponse response;
   std::lock_guard lock(mutex_);
-  *response.mutable_wanted() = wants_.wanted(atlases, static_cast<uint32_t>(displays.size()));
+  const auto display_count = static_cast<uint32_t>(displays.size());
+  if ((display_count == 0) != (display_count_ == 0)) used_rate_.reset();
+  display_count_ = display_count;
+  *response.mutable_wanted() = wants_.wanted(atlases, display_count);
+  response.mutable_wanted()->set_rate_hz(used_rate_.limitHz());
   std::string serialised = response.SerializeAsString();
   if (ending() || serialised == last_wanted_) return;
   last_wanted_ = std::move(serialised);

@@ -22,6 +22,7 @@
 #include "rpc/call_access.h"
 #include "rpc/liveness.h"
 #include "rpc/source_wants.h"
+#include "rpc/used_rate.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
 namespace viewloom {
@@ -67,6 +68,7 @@ class PublishCall final : public BidiCall {
   void dropReads() override;
   std::optional<grpc::ByteBuffer> takeMessage() override;
   bool wantsToRead() const override;
+  void onTaken();
   bool mayFinish() const override { return unreported_count_ == 0; }
 
   absl::Status handleChunk(const v1::FrameChunk& chunk);
@@ -78,6 +80,7 @@ class PublishCall final : public BidiCall {
   // A report that finds no memory ends the call.
   void tell(const FrameReport& report);
   void onReport(const FrameReport& report);
+  bool noteOutcome(FrameOutcome outcome);
 
   const IngestParts parts_;
   const std::string host_;
@@ -97,9 +100,12 @@ class PublishCall final : public BidiCall {
   std::unique_ptr<StreamDirectory::Claim> claim_;
   std::deque<grpc::ByteBuffer> replies_;    // accepted, then reports
   size_t unreported_count_ = 0;             // frames taken whose report has not come
+  bool frame_waits_ = false;                // to be decoded: another one would replace it
   std::optional<grpc::ByteBuffer> wanted_;  // newest only
   std::string last_wanted_;                 // serialised
   SourceWants wants_;
+  UsedRate used_rate_;
+  uint32_t display_count_ = 0;   // when that was last asked
   bool has_heartbeats_ = false;  // the publisher sends them, and gets them
   bool heartbeat_is_due_ = false;
   TicksSince heard_;  // from the publisher

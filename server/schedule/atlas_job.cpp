@@ -1,14 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "schedule/atlas_job.h"
 
-#include <set>
-#include <string_view>
+#include <algorithm>
 #include <utility>
 
 #include "display/atlas_layout.h"
 #include "display/tracked_eyes.h"
 
 namespace viewloom {
+namespace {
+
+void addPayers(const Payers& more, Payers& payers) {
+  for (const Payer& payer : more) {
+    if (std::ranges::find(payers, payer) == payers.end()) payers.push_back(payer);
+  }
+}
+
+}  // namespace
+
+Claim claimOf(const AtlasJob& job) {
+  return {.deadline_ns = job.deadline_ns,
+          .is_tracked = job.is_tracked,
+          .payers = job.payers,
+          .stream = job.structure ? job.structure->stream : "",
+          .display = job.picture_key};
+}
 
 int64_t deadlineNs(const DisplaySpec& spec, int64_t now_ns) {
   const int64_t due_ns = now_ns + kDueNsPerRay * rayCount(spec);
@@ -19,16 +35,21 @@ std::vector<AtlasJob> jobsOfFrame(const ResidentPtr& structure,
                                   const std::vector<ActiveDisplayPtr>& displays,
                                   const FrameTicketPtr& ticket, int64_t now_ns) {
   std::vector<AtlasJob> jobs;
-  std::set<std::string_view> offered;
   for (const ActiveDisplayPtr& display : displays) {
-    if (display->spec.temporal || !offered.insert(display->picture_key).second) continue;
+    if (display->spec.temporal) continue;
+    const auto same = std::ranges::find(jobs, display->picture_key, &AtlasJob::picture_key);
+    if (same != jobs.end()) {
+      addPayers(display->viewers, same->payers);
+      continue;
+    }
     jobs.push_back({.picture_key = display->picture_key,
                     .structure = structure,
                     .deadline_ns = deadlineNs(display->spec, now_ns),
                     .ticket = ticket,
                     .is_tracked = isTracked(display->spec),
                     .poses = display->eyes ? display->eyes->times() : PoseTimes{},
-                    .asked_ns = now_ns});
+                    .asked_ns = now_ns,
+                    .payers = display->viewers});
   }
   return jobs;
 }
@@ -41,7 +62,8 @@ AtlasJob jobForEyes(const ActiveDisplay& display, ResidentPtr structure, int64_t
           .is_for_eyes = true,
           .is_tracked = true,
           .poses = display.eyes->times(),
-          .asked_ns = now_ns};
+          .asked_ns = now_ns,
+          .payers = display.viewers};
 }
 
 }  // namespace viewloom

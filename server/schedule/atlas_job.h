@@ -9,6 +9,7 @@
 
 #include "eye_poses/eye_track.h"
 #include "publish/broadcaster.h"
+#include "schedule/fair_shares.h"
 #include "schedule/frame_ticket.h"
 #include "schedule/resident_structure.h"
 
@@ -41,7 +42,12 @@ struct AtlasJob {
   std::optional<OutputTick> tick = std::nullopt;  // none = the frame as it came
   int64_t asked_ns = 0;                           // when it was first offered
   ResidentPtr before = nullptr;  // also asked: what it has seen a frame ago, from elsewhere
+  Payers payers = {};            // the viewers of its displays
+  bool has_asked = false;        // for a newer frame, when it was to begin
 };
+
+// The job's claim on the engines' time.
+Claim claimOf(const AtlasJob& job);
 
 // Deadline of an atlas that is wanted from now on.
 int64_t deadlineNs(const DisplaySpec& spec, int64_t now_ns);

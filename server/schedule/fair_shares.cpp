@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/cost_estimate.h"
+
 namespace viewloom {
 namespace {
 
@@ -62,6 +64,10 @@ const Payer& FairShares::payerOf(const Claim& claim) const {
 }
 
 std::optional<size_t> FairShares::nextOf(const std::vector<const Claim*>& claims) const {
+  const auto waits = [](const Claim* claim) { return claim != nullptr; };
+  const auto only = std::ranges::find_if(claims, waits);
+  if (only == claims.end()) return std::nullopt;
+  if (std::none_of(only + 1, claims.end(), waits)) return size_t(only - claims.begin());
   std::lock_guard lock(mutex_);
   return choose(claims);
 }
@@ -77,8 +83,7 @@ std::optional<size_t> FairShares::choose(const std::vector<const Claim*>& claims
     const Payer& payer = payerOf(*claims[i]);
     candidates.push_back({i, claims[i], &payer, startOf(payer)});
   }
-  if (candidates.empty()) return std::nullopt;
-  // Of two identities with equal shares, the one goes first that is asked about first.
+  // If two identities have equal shares, the one goes first that is asked about first.
   const Payer payer = *std::ranges::min_element(candidates, {}, &Candidate::start_ns)->payer;
   std::erase_if(candidates, [&](const Candidate& candidate) { return *candidate.payer != payer; });
   const Account* const account = find(payer);
@@ -97,7 +102,7 @@ void FairShares::keepTurnOfEyes(const Account* account, std::vector<Candidate>& 
                 [&](const Candidate& candidate) { return isTracked(candidate) == is_others_turn; });
 }
 
-// Of two streams with equal shares, the one goes first whose deadline is sooner.
+// If two streams have equal shares, the one goes first whose deadline is sooner.
 void FairShares::keepOneStream(const Account* account, std::vector<Candidate>& candidates) {
   if (account != nullptr) {
     keepLeast(candidates, [&](const Candidate& candidate) {
@@ -139,7 +144,8 @@ void FairShares::move(const Claim& claim, int64_t time_ns) {
 
 void FairShares::enter(const Claim& claim) {
   std::lock_guard lock(mutex_);
-  for (const Payer& payer : claim.payers) {
+  const Payers payers = claim.payers.empty() ? Payers{kServer} : claim.payers;
+  for (const Payer& payer : payers) {
     Stream& stream = accountOf(payer).streams[claim.stream];
     Node& display = stream.displays[claim.display];
     display.finish_ns = stream.level.startOf(display);
@@ -156,8 +162,9 @@ void FairShares::begin(const Claim& claim, int64_t predicted_ns) {
 void FairShares::finish(const Claim& claim, int64_t predicted_ns, int64_t measured_ns) {
   std::lock_guard lock(mutex_);
   Account& account = accountOf(payerOf(claim));
-  const int64_t more_ns = measured_ns - predicted_ns;
-  account.eyes.note(claim.is_tracked, measured_ns);
+  const int64_t paid_ns = std::min(measured_ns, kPaidMax * std::max(predicted_ns, kPiece_ns));
+  const int64_t more_ns = paid_ns - predicted_ns;
+  account.eyes.note(claim.is_tracked, paid_ns);
   account.finish_ns += more_ns;
   Stream& stream = account.streams[claim.stream];
   stream.finish_ns += more_ns;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Whose work goes next: a fair queue over identities, their streams, and the displays of those, in
-// time that work has taken.
+// Order in which work goes: a fair queue over identities, their streams, and the displays of those,
+// in time that work has taken.
 //
 // Start-time fair queueing: whoever pays for a piece of work has a virtual time, which is moved on
 // by how long the piece takes. The one whose virtual time is least goes next. Who was idle begins
@@ -26,13 +26,19 @@ inline constexpr int64_t kCredit_ns = 30'000'000;
 // deadlines, so that most atlases are finished before the next one begins.
 inline constexpr int64_t kInOrder_ns = 20'000'000;
 
+// Times by which a piece may exceed its prediction before the rest is nobody's.
+inline constexpr int64_t kPaidMax = 10;
+
+// Viewers or publishers that some work is for, each once.
+using Payers = std::vector<Payer>;
+
 // Work that waits, or is under way part by part, and those who pay for it.
 struct Claim {
   int64_t deadline_ns = 0;
   bool is_tracked = false;
-  // Distinct. Each part is paid by the one of them whose turn comes first, so that a picture that
+  // Each part is paid by the one of them whose turn comes first, so that a picture that
   // several share costs each of them less. Empty = the server itself.
-  std::vector<Payer> payers = {};
+  Payers payers = {};
   std::string stream = {};
   std::string display = {};  // picture key; "" = structures of the stream
 };
@@ -65,7 +71,8 @@ class FairShares {
   void enter(const Claim& claim);
   // A piece of the claim's work begins, and will take about so long.
   void begin(const Claim& claim, int64_t predicted_ns);
-  // The piece has taken so long.
+  // The piece has taken so long. No more than kPaidMax times its prediction is paid, or those of
+  // a whole piece: a driver may have compiled a kernel meanwhile.
   void finish(const Claim& claim, int64_t predicted_ns, int64_t measured_ns);
 
  private:

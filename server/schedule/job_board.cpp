@@ -15,14 +15,21 @@ size_t JobBoard::engineOf(const std::string& picture_key) const {
   return planned == engines_.end() ? 0 : planned->second;
 }
 
+// A display that has waited, or is being served, keeps its place.
+void JobBoard::enter(const Lane& lane, const AtlasJob& job) {
+  if (!lane.jobs.isBusy(job.picture_key)) shares_.enter(claimOf(job));
+}
+
 JobBoard::Offered JobBoard::offer(AtlasJob job) {
   std::lock_guard lock(mutex_);
   Offered offered{.engine = engineOf(job.picture_key)};
   Lane& lane = lanes_[offered.engine];
+  enter(lane, job);
+  const Payers payers = job.payers;
   const size_t count_before = lane.jobs.waitingCount();
   offered.replaced = lane.jobs.push(std::move(job));
-  const bool is_awaited =
-      lane.eyes_wait_until_ns && !lane.jobs.eyesWaitUntilNs(clock_.nowNs()).has_value();
+  const bool is_awaited = lane.eyes_wait_until_ns.contains(payers) &&
+                          !lane.jobs.eyesWaitUntilNs(clock_.nowNs(), payers).has_value();
   offered.is_news = lane.jobs.waitingCount() > count_before || is_awaited;
   return offered;
 }
@@ -31,6 +38,7 @@ std::optional<JobBoard::Offered> JobBoard::offerUnlessBusy(const AtlasJob& job) 
   std::lock_guard lock(mutex_);
   const size_t engine = engineOf(job.picture_key);
   if (lanes_[engine].jobs.isBusy(job.picture_key)) return std::nullopt;
+  enter(lanes_[engine], job);
   lanes_[engine].jobs.push(job);
   return Offered{.engine = engine, .is_news = true, .replaced = std::nullopt};
 }
@@ -40,29 +48,43 @@ bool JobBoard::isBusy(const std::string& picture_key) const {
   return lanes_[engineOf(picture_key)].jobs.isBusy(picture_key);
 }
 
+bool JobBoard::isWaiting(const std::string& picture_key) const {
+  std::lock_guard lock(mutex_);
+  return lanes_[engineOf(picture_key)].jobs.isWaiting(picture_key);
+}
+
 std::optional<AtlasJob> JobBoard::begin(size_t engine, const Claim* first_begun,
-                                        bool has_room_for_eyes) {
+                                        const HasRoom& has_room_for_eyes) {
   std::lock_guard lock(mutex_);
   Lane& lane = lanes_[engine];
-  lane.eyes_wait_until_ns.reset();
-  const std::optional<int64_t> due_ns = lane.jobs.soonestDeadlineNs();
-  const bool is_due = due_ns && (first_begun == nullptr || first_begun->isLong() ||
-                                 *due_ns < first_begun->deadline_ns);
-  const bool eyes_wait =
-      first_begun != nullptr && !first_begun->is_tracked && lane.jobs.hasTracked();
-  if (!is_due && !eyes_wait) return std::nullopt;
-  if (!lane.jobs.isSoonestTracked()) return lane.jobs.begin();
-  // One head at a time: who is next depends on the poses that there are when it is his turn.
-  if (!has_room_for_eyes) return std::nullopt;
-  const int64_t now_ns = clock_.nowNs();
-  lane.eyes_wait_until_ns = lane.jobs.eyesWaitUntilNs(now_ns);
-  if (lane.eyes_wait_until_ns) return std::nullopt;
-  return lane.jobs.beginTracked(now_ns);
+  lane.eyes_wait_until_ns.clear();
+  HeldBack held_back;
+  while (const Claim* const next = lane.jobs.next(shares_, held_back)) {
+    if (first_begun != nullptr && !shares_.goesBefore(*next, *first_begun)) return std::nullopt;
+    if (!next->is_tracked) return lane.jobs.begin(*next);
+    const Payers payers = next->payers;
+    // One head of a payer at a time: who is next depends on the poses that there are when it is
+    // his turn.
+    if (!has_room_for_eyes(payers)) {
+      held_back.tracked.insert(payers);
+      continue;
+    }
+    const int64_t now_ns = clock_.nowNs();
+    const std::optional<int64_t> until_ns = lane.jobs.eyesWaitUntilNs(now_ns, payers);
+    if (!until_ns) return lane.jobs.beginTracked(now_ns, payers);
+    lane.eyes_wait_until_ns.emplace(payers, *until_ns);
+    held_back.all.insert(payers);
+  }
+  return std::nullopt;
 }
 
 std::optional<int64_t> JobBoard::eyesWaitUntilNs(size_t engine) const {
   std::lock_guard lock(mutex_);
-  return lanes_[engine].eyes_wait_until_ns;
+  std::optional<int64_t> soonest_ns;
+  for (const auto& [payers, until_ns] : lanes_[engine].eyes_wait_until_ns) {
+    soonest_ns = std::min(soonest_ns.value_or(until_ns), until_ns);
+  }
+  return soonest_ns;
 }
 
 std::optional<AtlasJob> JobBoard::handOver(AtlasJob job, size_t from, size_t to) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -10,8 +11,8 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "schedule/fair_shares.h"
 #include "schedule/job_queue.h"
-#include "schedule/turns.h"
 
 namespace viewloom {
 
@@ -19,7 +20,9 @@ namespace viewloom {
 // planned; until then the first is asked. Thread-safety: all methods may be called from any thread.
 class JobBoard {
  public:
-  JobBoard(const Clock& clock, size_t engine_count) : clock_(clock), lanes_(engine_count) {}
+  // Clock and shares outlive it.
+  JobBoard(const Clock& clock, FairShares& shares, size_t engine_count)
+      : clock_(clock), shares_(shares), lanes_(engine_count) {}
 
   // Outcome of an offer.
   struct Offered {
@@ -34,13 +37,18 @@ class JobBoard {
   std::optional<Offered> offerUnlessBusy(const AtlasJob& job);
   // An atlas of the picture waits or is on its way.
   bool isBusy(const std::string& picture_key) const;
+  // One waits to begin.
+  bool isWaiting(const std::string& picture_key) const;
 
-  // The next job that an engine may begin: one that is due before everything that has begun there,
-  // or any where all that has is long, or one of eyes that wait where nobody's are served. None
-  // while eyes wait for newer poses: to begin a quilt would take longer. `first_begun`: what goes
-  // first of all that has begun; nullptr = nothing has.
-  std::optional<AtlasJob> begin(size_t engine, const Claim* first_begun, bool has_room_for_eyes);
-  // Until when tracked displays of the engine rather wait for poses, as begin() found it.
+  // The next job that an engine may begin: one that goes before everything that has begun there
+  // (FairShares). None of a payer whose eyes wait for newer poses: to begin a quilt would take
+  // longer. `first_begun`: what goes first of all that has begun; nullptr = nothing has.
+  // `has_room_for_eyes`: whether a tracked display of these payers may begin.
+  using HasRoom = std::function<bool(const Payers& payers)>;
+  std::optional<AtlasJob> begin(size_t engine, const Claim* first_begun,
+                                const HasRoom& has_room_for_eyes);
+  // Until when tracked displays of the engine rather wait for poses, as begin() found it; of
+  // several payers' the soonest.
   std::optional<int64_t> eyesWaitUntilNs(size_t engine) const;
   // A job that has begun turns out to be another engine's, and so are later ones of its picture.
   // Returns what it replaces there.
@@ -60,12 +68,14 @@ class JobBoard {
  private:
   struct Lane {
     JobQueue jobs;
-    std::optional<int64_t> eyes_wait_until_ns;
+    std::map<Payers, int64_t> eyes_wait_until_ns;  // those that wait for poses
   };
 
   size_t engineOf(const std::string& picture_key) const;
+  void enter(const Lane& lane, const AtlasJob& job);
 
   const Clock& clock_;
+  FairShares& shares_;
   mutable std::mutex mutex_;               // guards what follows
   std::vector<Lane> lanes_;                // one an engine
   std::map<std::string, size_t> engines_;  // that pictures were planned for, but for the first

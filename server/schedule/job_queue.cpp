@@ -20,12 +20,14 @@ std::optional<AtlasJob> JobQueue::push(AtlasJob job) {
     return waiting.job.picture_key == job.picture_key;
   });
   if (older == waiting_.end()) {
-    waiting_.push_back({std::move(job)});
+    Claim claim = claimOf(job);
+    waiting_.push_back({std::move(job), std::move(claim)});
     return std::nullopt;
   }
   AtlasJob& kept = older->job;
   job.poses = kept.poses = newerOf(kept.poses, job.poses);
   job.asked_ns = kept.asked_ns = std::min(kept.asked_ns, job.asked_ns);
+  job.has_asked = kept.has_asked = kept.has_asked || job.has_asked;
   if (kept.structure == job.structure) {
     if (!kept.ticket) kept.ticket = std::move(job.ticket);
     kept.is_for_eyes &= job.is_for_eyes;
@@ -33,14 +35,18 @@ std::optional<AtlasJob> JobQueue::push(AtlasJob job) {
   }
   if (job.structure->serial < kept.structure->serial) return job;
   job.deadline_ns = std::min(job.deadline_ns, kept.deadline_ns);
+  older->claim = claimOf(job);
   return std::exchange(kept, std::move(job));
 }
 
 bool JobQueue::isBusy(const std::string& picture_key) const {
-  return begun_.contains(picture_key) ||
-         std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
-           return waiting.job.picture_key == picture_key;
-         });
+  return begun_.contains(picture_key) || isWaiting(picture_key);
+}
+
+bool JobQueue::isWaiting(const std::string& picture_key) const {
+  return std::any_of(waiting_.begin(), waiting_.end(), [&](const Waiting& waiting) {
+    return waiting.job.picture_key == picture_key;
+  });
 }
 
 bool JobQueue::mayBegin(const Waiting& waiting) const {
@@ -61,52 +67,47 @@ const JobQueue::Waiting* JobQueue::soonest(const Counts& counts) const {
   return best;
 }
 
-const JobQueue::Waiting* JobQueue::soonest() const {
-  return soonest([this](const Waiting& waiting) { return mayBegin(waiting); });
+const Claim* JobQueue::next(const FairShares& shares, const HeldBack& held_back) const {
+  const Waiting* const waiting =
+      shares.next(waiting_, [&](const Waiting& candidate) -> const Claim* {
+        const Payers& payers = candidate.claim.payers;
+        const bool is_held_back =
+            held_back.all.contains(payers) ||
+            (candidate.claim.is_tracked && held_back.tracked.contains(payers));
+        return is_held_back || !mayBegin(candidate) ? nullptr : &candidate.claim;
+      });
+  return waiting == nullptr ? nullptr : &waiting->claim;
 }
 
-std::optional<int64_t> JobQueue::soonestDeadlineNs() const {
-  const Waiting* const waiting = soonest();
-  if (waiting == nullptr) return std::nullopt;
-  return waiting->job.deadline_ns;
-}
-
-bool JobQueue::hasTracked() const {
-  return std::any_of(waiting_.begin(), waiting_.end(),
-                     [this](const Waiting& waiting) { return mayBeginTracked(waiting); });
-}
-
-bool JobQueue::isSoonestTracked() const {
-  const Waiting* const waiting = soonest();
-  return waiting != nullptr && waiting->job.is_tracked;
-}
-
-JobQueue::NextHead JobQueue::nextHead(int64_t now_ns) const {
+JobQueue::NextHead JobQueue::nextHead(int64_t now_ns, const Payers& payers) const {
+  const auto counts = [&](const Waiting& waiting) {
+    return mayBeginTracked(waiting) && waiting.claim.payers == payers;
+  };
   MovingHeads heads(now_ns);
   for (const Waiting& waiting : waiting_) {
-    if (mayBeginTracked(waiting)) heads.add(waiting.job.poses);
+    if (counts(waiting)) heads.add(waiting.job.poses);
   }
   const auto passed_count_max = kRoundsPassed * size_t(heads.count());
   const Waiting* next = soonest([&](const Waiting& waiting) {
     const size_t passed_count = waiting.passed_count;
-    return mayBeginTracked(waiting) && passed_count >= passed_count_max &&
+    return counts(waiting) && passed_count >= passed_count_max &&
            (passed_count >= passed_count_max + size_t(heads.count()) ||
             heads.areAtHand(waiting.job.poses));
   });
   if (next == nullptr) {
     next = soonest([&](const Waiting& waiting) {
-      return mayBeginTracked(waiting) && heads.areTimely(waiting.job.poses);
+      return counts(waiting) && heads.areTimely(waiting.job.poses);
     });
   }
   if (next != nullptr) return {next, heads.waitForUntilNs(next->job.poses)};
   next = soonest([&](const Waiting& waiting) {
-    return mayBeginTracked(waiting) && heads.areNewest(waiting.job.poses);
+    return counts(waiting) && heads.areNewest(waiting.job.poses);
   });
   return {next, heads.waitForAnyUntilNs()};
 }
 
-std::optional<int64_t> JobQueue::eyesWaitUntilNs(int64_t now_ns) const {
-  const NextHead next = nextHead(now_ns);
+std::optional<int64_t> JobQueue::eyesWaitUntilNs(int64_t now_ns, const Payers& payers) const {
+  const NextHead next = nextHead(now_ns, payers);
   const bool may_wait = next.waiting != nullptr && next.waiting->job.is_for_eyes;
   return may_wait ? next.wait_until_ns : std::nullopt;
 }
@@ -119,13 +120,17 @@ AtlasJob JobQueue::take(const Waiting* waiting) {
   return taken;
 }
 
-AtlasJob JobQueue::begin() {
-  return take(soonest());
+AtlasJob JobQueue::begin(const Claim& claim) {
+  const auto found = std::ranges::find(
+      waiting_, claim.display, [](const Waiting& waiting) { return waiting.job.picture_key; });
+  return take(found == waiting_.end() ? nullptr : &*found);
 }
 
-AtlasJob JobQueue::beginTracked(int64_t now_ns) {
-  AtlasJob taken = take(nextHead(now_ns).waiting);
-  for (Waiting& waiting : waiting_) waiting.passed_count += mayBeginTracked(waiting) ? 1 : 0;
+AtlasJob JobQueue::beginTracked(int64_t now_ns, const Payers& payers) {
+  AtlasJob taken = take(nextHead(now_ns, payers).waiting);
+  for (Waiting& waiting : waiting_) {
+    waiting.passed_count += mayBeginTracked(waiting) && waiting.claim.payers == payers ? 1 : 0;
+  }
   return taken;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which atlas is traced next: soonest deadline first, newest structure of each picture; of tracked
-// displays one whose eyes have just moved.
+// Which atlas is begun next: of whoever has had the smaller share, the newest structure of each
+// picture; of tracked displays one whose eyes have just moved.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "schedule/atlas_job.h"
+#include "schedule/fair_shares.h"
 #include "schedule/moving_heads.h"
 
 namespace viewloom {
@@ -20,15 +21,23 @@ namespace viewloom {
 // (answered_heads_test: 2.1 ms in the median of 50 sets).
 inline constexpr uint32_t kRoundsPassed = 3;
 
+// Payers whose jobs do not begin for now: all of them, or those of tracked displays.
+struct HeldBack {
+  std::set<Payers> all;
+  std::set<Payers> tracked;
+};
+
 // Jobs that have not begun, at most one per picture.
 //
-// When more heads move than there are answers for, not all poses get one, and who is next decides
-// how old those are that do. Of heads whose poses came just now, or are just about to
-// (MovingHeads), the one with the soonest deadline is next: it has waited longest, and waits for
-// its poses. Else it is whoever's poses come next, if that is soon, or one whose are the newest. Of
-// n heads that wait, one that others have gone before kRoundsPassed * n times is next as soon as
-// its poses are at hand, and after n more in any case. So none is passed over more than
-// (kRoundsPassed + 2) * n - 1 times: the n - 1 others may be as late.
+// FairShares says which job is next. Where that is one of a tracked display, another tracked
+// display of the same payer may be next instead: when more heads move than there are answers for,
+// not all poses get one, and who is next decides how old those are that do. Of heads whose poses
+// came just now, or are just about to (MovingHeads), the one with the soonest deadline is next: it
+// has waited longest, and waits for its poses. Else it is whoever's poses come next, if that is
+// soon, or one whose are the newest. Of n heads that wait, one that others have gone before
+// kRoundsPassed * n times is next as soon as its poses are at hand, and after n more in any case.
+// So none is passed over more than (kRoundsPassed + 2) * n - 1 times: the n - 1 others may be as
+// late.
 //
 // Thread-safety: none.
 class JobQueue {
@@ -41,19 +50,18 @@ class JobQueue {
   size_t waitingCount() const { return waiting_.size(); }
   // A job of the picture waits, or has begun.
   bool isBusy(const std::string& picture_key) const;
+  bool isWaiting(const std::string& picture_key) const;
 
-  // The soonest deadline of a job that may begin; none while its picture is being traced.
-  std::optional<int64_t> soonestDeadlineNs() const;
-  // Whether one of a tracked display may begin, and whether the soonest is one.
-  bool hasTracked() const;
-  bool isSoonestTracked() const;
-  // Until when tracked displays rather wait for poses that are due than begin; empty = they do not.
-  // One that is next and has a new frame to see never does.
-  std::optional<int64_t> eyesWaitUntilNs(int64_t now_ns) const;
-  // Takes the soonest job, or of tracked displays the one that is next by now; no other of its
-  // picture may begin until finish().
-  AtlasJob begin();
-  AtlasJob beginTracked(int64_t now_ns);
+  // Claim of the job that is next, of those that are not held back; nullptr = none may begin.
+  // None may while its picture is being traced.
+  const Claim* next(const FairShares& shares, const HeldBack& held_back = {}) const;
+  // Until when tracked displays of a payer rather wait for poses that are due than begin; empty =
+  // they do not. One that is next and has a new frame to see never does.
+  std::optional<int64_t> eyesWaitUntilNs(int64_t now_ns, const Payers& payers = {}) const;
+  // Takes the job of a claim that next() gave, or of tracked displays of a payer the one that is
+  // next by now; no other of its picture may begin until finish().
+  AtlasJob begin(const Claim& claim);
+  AtlasJob beginTracked(int64_t now_ns, const Payers& payers = {});
   void finish(const std::string& picture_key);
   // An atlas on its way is seen by the newest eyes: a job for these alone is none any more, and
   // nobody is to wait for what it would.
@@ -66,6 +74,7 @@ class JobQueue {
  private:
   struct Waiting {
     AtlasJob job;
+    Claim claim;              // of the job
     size_t passed_count = 0;  // of tracked displays that have begun before it, and might not have
   };
 
@@ -77,11 +86,10 @@ class JobQueue {
 
   bool mayBegin(const Waiting& waiting) const;
   bool mayBeginTracked(const Waiting& waiting) const;
-  // First of those that count, or of all that may begin; nullptr = none.
+  // The one of those that count with the soonest deadline; nullptr = none.
   template <typename Counts>
   const Waiting* soonest(const Counts& counts) const;
-  const Waiting* soonest() const;
-  NextHead nextHead(int64_t now_ns) const;
+  NextHead nextHead(int64_t now_ns, const Payers& payers) const;
   AtlasJob take(const Waiting* waiting);
 
   std::vector<Waiting> waiting_;

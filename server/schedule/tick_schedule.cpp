@@ -91,7 +91,8 @@ std::vector<TickSchedule::DueTick> TickSchedule::takeDue(int64_t now_ns) {
                            .structure = newest.structure,
                            .ticket = std::exchange(picture.ticket, nullptr),
                            .tick = output,
-                           .before = asksBoth(spec, newest) ? newest.before : nullptr},
+                           .before = asksBoth(spec, newest) ? newest.before : nullptr,
+                           .payers = picture.display->viewers},
                    .missed_count = tick->missed_count});
   }
   return all;

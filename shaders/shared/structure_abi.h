@@ -175,6 +175,7 @@ struct BuildPush {
   // Two surfaces of a column no further apart are one: step(w) = x + y w + z w^2, 1/m. Of the
   // coarsest layer in each term.
   vec3 format_step;
+  uint first_group_row;  // of a dispatch
 };
 
 // Measured by the build.
@@ -251,7 +252,7 @@ struct ConvertColorPush {
 
 #ifdef __cplusplus
 static_assert(sizeof(DepthPlanes) == 24 + 44 * kLayerCountMax);
-static_assert(sizeof(BuildPush) == 108);
+static_assert(sizeof(BuildPush) == 112);
 static_assert(offsetof(Measured, noise_histogram) == 96 + 4 * kDepthHistogramBinCount);
 static_assert(sizeof(ConvertColorPush) == 48);
 #endif

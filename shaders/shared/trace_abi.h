@@ -200,7 +200,7 @@ struct TracePush {
   // Rows of rays whose light is summed, to find blocks of px by.
   uint row_count;        // of the band
   uint first_block_row;  // as in GatherPush
-  uint band_row;         // of rows that mirror, in the band
+  uint band_row;         // first of the rows that are walked or mirror, in the band
   // Number of the bounce of reflected rays that several walks answer.
   uint bounce;        // of the ray's mirrors, from 0
   uint sample_index;  // of the px's rays
@@ -226,6 +226,7 @@ struct AveragePush {
   Address to[kLayerCountMax];
   uint size_px;       // width | height << 16
   float last_weight;  // of the furthest samples to both sides
+  uint first_strip;   // along y; along x the first row
 };
 
 VIEWLOOM_ABI_CONST uint kBindingUnfinished = 25u;  // storage: IncompleteHead, and uints
@@ -282,7 +283,7 @@ static_assert(sizeof(TraceExtras) == 256);
 static_assert(sizeof(RayAnswer) == 52);
 static_assert(sizeof(MergePush) == 44);
 static_assert(sizeof(TracePush) == 116);
-static_assert(sizeof(AveragePush) == 104);
+static_assert(sizeof(AveragePush) == 108);
 static_assert(sizeof(PackPush) == 12);
 static_assert(sizeof(BlendPush) == 32);
 static_assert(sizeof(RayRecord) == 24);

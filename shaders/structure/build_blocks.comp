@@ -12,6 +12,9 @@ layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
+// A pass may be cut into dispatches of some rows of groups each.
+uint groupRow() { return push.first_group_row + gl_WorkGroupID.y; }
+
 #include "lib/structure/facet_row.glsl"
 #include "lib/structure/layer_count.glsl"
 #include "lib/structure/links.glsl"
@@ -182,7 +185,7 @@ void finishBlock(Extent extent, uint layer, uvec2 cell, Block block, vec4 column
 
 // Row after row: its links upward complete the row above.
 void main() {
-  const uvec2 cell = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
+  const uvec2 cell = uvec2(gl_GlobalInvocationID.x, groupRow());
   const ivec2 origin = ivec2(cell) * kBlockPx;
   if (origin.x >= int(push.width_px)) return;
   const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));

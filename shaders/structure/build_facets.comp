@@ -11,6 +11,9 @@ layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
+// A pass may be cut into dispatches of some rows of groups each.
+uint groupRow() { return push.first_group_row + gl_WorkGroupID.y; }
+
 #include "lib/structure/columns.glsl"
 #include "lib/structure/layer_count.glsl"
 
@@ -112,7 +115,7 @@ void buildRow(Extent extent, ivec2 pixel, Columns above_2, Columns above_1, Colu
 }
 
 void main() {
-  const ivec2 origin = ivec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y) * kBlockPx;
+  const ivec2 origin = ivec2(gl_GlobalInvocationID.x, groupRow()) * kBlockPx;
   if (origin.x >= int(push.width_px)) return;
   const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
   Columns above_2 = loadColumns(origin.x, origin.y - 2);

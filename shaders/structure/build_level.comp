@@ -13,11 +13,14 @@ layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
+// A pass may be cut into dispatches of some rows of groups each.
+uint groupRow() { return push.first_group_row + gl_WorkGroupID.y; }
+
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
   const uint layer = gl_WorkGroupID.z;
   const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
-  const uvec2 cell = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
+  const uvec2 cell = uvec2(gl_GlobalInvocationID.x, groupRow());
   const int child_size_px = 1 << (push.level - 1u);
   const float child_size = float(child_size_px);
   if (int(cell.x) * 2 * child_size_px >= extent.size_px.x) return;

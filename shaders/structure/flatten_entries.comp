@@ -9,10 +9,13 @@
 layout(local_size_x = kNodeGroupSize) in;
 layout(push_constant, scalar) uniform Push { BuildPush push; };
 
+// A pass may be cut into dispatches of some rows of groups each.
+uint groupRow() { return push.first_group_row + gl_WorkGroupID.y; }
+
 void main() {
   const uint layer = gl_WorkGroupID.z;
   const Extent extent = makeExtent(ivec2(push.width_px, push.height_px));
-  const uvec2 cell = uvec2(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
+  const uvec2 cell = uvec2(gl_GlobalInvocationID.x, groupRow());
   if (int(cell.x << kLevelFirst) >= extent.size_px.x) return;
   uvec2 entry = loadCell(push.layers, layer, extent, kLevelFirst, cell);
   // An ancestor is planar only if all below it are.

@@ -13,6 +13,9 @@ layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
+// A pass may be cut into dispatches of some rows of groups each.
+uint groupRow() { return push.first_group_row + gl_WorkGroupID.y; }
+
 float nearestInvZ(ivec2 pixel) {
   const uint area = invZArea(push.width_px, push.height_px);
   const uint pitch = invZPitch(push.width_px);
@@ -41,7 +44,7 @@ Tally withSample(Tally tally, uint bin) {
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
   const ivec2 size = ivec2(push.width_px, push.height_px);
-  const int y = min(int(gl_WorkGroupID.y) * kBlockPx + 2, size.y - 1);
+  const int y = min(int(groupRow()) * kBlockPx + 2, size.y - 1);
   const int first_x = int(gl_GlobalInvocationID.x) * kMeasuredBlocks;
   Tally depths = Tally(0u, 0u);
   Tally noise = Tally(0u, 0u);
@@ -51,7 +54,7 @@ void main() {
     const int block_x = first_x + block;
     const bool is_in_image = block_x * kBlockPx < size.x;
     const ivec2 pixel = ivec2(min(block_x * kBlockPx + 2, size.x - 1), y);
-    const bool is_along_x = ((block_x + int(gl_WorkGroupID.y)) & 1) == 0;
+    const bool is_along_x = ((block_x + int(groupRow())) & 1) == 0;
     const ivec2 along = is_along_x ? ivec2(1, 0) : ivec2(0, 1);
     // Around the image lies the guard of no surface.
     const float before = nearestInvZ(pixel - along);

@@ -11,12 +11,15 @@ layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
+// A pass may be cut into dispatches of some rows of groups each.
+uint groupRow() { return push.first_group_row + gl_WorkGroupID.y; }
+
 void main() {
   MeasuredRef measured = MeasuredRef(push.measured);
   const ivec2 size = ivec2(push.width_px, push.height_px);
   const uint area = invZArea(push.width_px, push.height_px);
   const uint pitch = invZPitch(push.width_px);
-  const int y = min(int(gl_WorkGroupID.y) * kBlockPx + 2, size.y - 1);
+  const int y = min(int(groupRow()) * kBlockPx + 2, size.y - 1);
   const int first_x = int(gl_GlobalInvocationID.x) * kMeasuredBlocks;
   // Neighbours mostly share a bin: one atomic for all in a row.
   uint counted_bin = 0u;

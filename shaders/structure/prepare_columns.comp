@@ -17,6 +17,9 @@ layout(push_constant, scalar) uniform Push {
   BuildPush push;
 };
 
+// A pass may be cut into dispatches of some rows of groups each.
+uint groupRow() { return push.first_group_row + gl_WorkGroupID.y; }
+
 layout(set = 0, binding = kBindingSamples) uniform usamplerBuffer sample_words;
 layout(set = 0, binding = kBindingDepthPlanes, scalar) uniform Planes {
   DepthPlanes depth;
@@ -148,7 +151,7 @@ void main() {
   uint unsorted_count = 0u;
   int row = 0;
   do {
-    const int y = (int(gl_WorkGroupID.y) - 1) * kBlockPx + row;
+    const int y = (int(groupRow()) - 1) * kBlockPx + row;
     const int given_y = y - apron;
     const bvec4 exists = both(both(lessThan(given_xs, ivec4(given.x)),
                                    greaterThanEqual(given_xs, ivec4(0))),

@@ -133,7 +133,7 @@ bool isEmpty(Line line, uint layer, int first) {
 void main() {
   const uint layer = gl_WorkGroupID.x;
   const int x = int(gl_WorkGroupID.y * kTraceGroupSize + gl_LocalInvocationID.x);
-  const int y = int(gl_WorkGroupID.z);
+  const int y = int(push.first_strip + gl_WorkGroupID.z);
   const Extent extent = makeExtent(ivec2(push.size_px & 0xffffu, push.size_px >> 16));
   const Line line = Line(extent, kIsAlongY ? x : y);
   const int first = (kIsAlongY ? y : x) * kStrip_px;

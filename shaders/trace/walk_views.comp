@@ -201,7 +201,7 @@ void main() {
   else if (isOfUnfinished())
     task = taskOfUnfinished();
   else
-    task = taskOfRun(gl_GlobalInvocationID.x, gl_WorkGroupID.y);
+    task = taskOfRun(gl_GlobalInvocationID.x, push.band_row + gl_WorkGroupID.y);
   ViewParams view = views[task.tile];
 
   uvec3 counts = uvec3(0u);
@@ -212,5 +212,6 @@ void main() {
   }
   // All px have the rays that are counted.
   if (kIsOneOfSeveral || kIsOfBlocks) return;
-  addCounts(counts, UintRef(extras.counters), gl_WorkGroupID.y * kCounterSets / gl_NumWorkGroups.y);
+  addCounts(counts, UintRef(extras.counters),
+            (push.band_row + gl_WorkGroupID.y) * kCounterSets / push.row_count);
 }

@@ -68,7 +68,7 @@ class Walk {
     const FrameBuildMemory build_memory = makeBuildMemory(device_, shapesOf(*input));
     WalkedForm form(device_, build_memory);
     const uint64_t form_bytes = gpuMemoryBytes() - before_bytes;
-    StripTrace strip(device_, stripShape(job_));
+    StripTrace strip(device_, stripShape(job_), Reservation());
     use.trace_target_bytes = gpuMemoryBytes() - before_bytes - form_bytes;
     build(*input, form);
     trace(form, strip);
@@ -81,7 +81,7 @@ class Walk {
       use.peak_bytes = uint64_t(heap.peakBytes()) + device_bytes;
     }
     WalkedForm further_form(device_, build_memory);
-    StripTrace further_strip(device_, stripShape(job_));
+    StripTrace further_strip(device_, stripShape(job_), Reservation());
     build(*input, further_form);
     trace(further_form, further_strip);
     use.further_frame_bytes = gpuMemoryBytes() - before_bytes - held_bytes;

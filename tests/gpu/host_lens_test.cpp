@@ -143,9 +143,8 @@ TEST_F(HostLens, isTheSameInPieces) {
   EXPECT_EQ(gatheredIn(13), whole);
   // The same order as for a strip: all rows, once.
   uint32_t row = 0;
-  while (row < shared->size_px.height) {
-    const BandRows rest = {row, shared->size_px.height - row};
-    const BandRows piece = firstGathered(*shared, rest);
+  const BandRows all = {0, shared->size_px.height};
+  for (const BandRows& piece : gatheredPieces(*shared, all, UINT64_MAX)) {
     EXPECT_EQ(piece.first_row, row);
     ASSERT_GT(piece.row_count, 0u);
     row += piece.row_count;

@@ -62,25 +62,50 @@ TEST_F(Lens, keepsNoMoreOfWhatRaysMetThanABufferHolds) {
   EXPECT_EQ(metCountOf(16384, 9), 0u);
 }
 
+std::vector<BandPart> partsOf(const TraceJob& job, BandRows rows, uint64_t ray_count_max) {
+  std::vector<BandPart> all;
+  for (BandParts parts(job, rows); !parts.isOver();) all.push_back(parts.take(ray_count_max));
+  return all;
+}
+
 // So that nobody waits at a device for all the rays of another's lens.
 TEST_F(Lens, isTracedInPartsOfBoundedWork) {
   const TraceJob job = jobOf(16384, 7, kGatheredSamplesMax);
   constexpr BandRows kRows = {.first_row = 0, .row_count = 64};
-  const BandParts parts(job, kRows);
+  const std::vector<BandPart> parts = partsOf(job, kRows, kPartRays);
   uint32_t sample = 0;
   uint32_t row = 0;
-  for (uint32_t index = 0; index < parts.count(); ++index) {
-    const BandPart part = parts.at(index);
-    EXPECT_LE(part.ray_count, kPartRays) << index;
+  for (const BandPart& part : parts) {
+    EXPECT_LE(part.ray_count, kPartRays);
     EXPECT_EQ(part.first_sample, part.walks() ? sample : 0);
-    EXPECT_EQ(part.first_row, row);
-    if (part.walks()) sample = part.end_sample;
-    row = part.end_row;
+    EXPECT_EQ(part.first_row, part.walks() ? 0 : row);
+    EXPECT_EQ(part.is_first, &part == &parts.front());
+    EXPECT_EQ(part.is_last, &part == &parts.back());
+    if (part.walks()) {
+      sample = part.end_sample;
+    } else {
+      row = part.end_row;
+    }
   }
   EXPECT_EQ(sample, 7u) << "two samples a part, one in the last";
   EXPECT_EQ(row, kRows.row_count);
-  EXPECT_EQ(parts.count(), 4u + 32u);
-  EXPECT_EQ(BandParts(jobOf(480, 8, 32), kRows).count(), 2u) << "the two stages";
+  EXPECT_EQ(parts.size(), 4u + 32u);
+  EXPECT_EQ(partsOf(jobOf(480, 8, 32), kRows, kPartRays).size(), 2u) << "the two stages";
+}
+
+// Rows of the first rays of a lens; later ones are of blocks that are listed for the whole band.
+TEST_F(Lens, isTracedRowByRowWhereRaysTakeLong) {
+  const TraceJob job = jobOf(2048, 8, 32);
+  constexpr BandRows kRows = {.first_row = 0, .row_count = 64};
+  uint64_t walked_row_count = 0;
+  for (const BandPart& part : partsOf(job, kRows, 5 * 2048)) {
+    if (!part.walks()) continue;
+    EXPECT_EQ(part.end_sample, part.first_sample + 1);
+    const bool is_of_first_round = metRound(part.first_sample, 8).first == 0;
+    EXPECT_LE(part.end_row - part.first_row, is_of_first_round ? 5u : 64u);
+    walked_row_count += part.end_row - part.first_row;
+  }
+  EXPECT_EQ(walked_row_count, 8u * 64);
 }
 
 TEST(MetRounds, areAsManyRaysAsAllBeforeThem) {

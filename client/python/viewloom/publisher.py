@@ -152,8 +152,10 @@ class Publisher:
         """Sends a frame of one or up to eight sources; its report is the future's result.
 
         The arrays are copied before this returns. It waits while in_flight_max frames are
-        unreported, and while the server is away; later frames replace earlier ones that the server
-        has not begun. Warns (UnlikelyInput) of a frame that shows nothing, once a stream.
+        unreported, while the server is away, and until the server would use another frame
+        (wanted.rate_hz; about one a second while nobody watches). Later frames replace earlier
+        ones that the server has not begun. Warns (UnlikelyInput) of a frame that shows nothing,
+        once a stream.
         capture_time_ns: any clock of yours, echoed with every atlas; None = time.time_ns().
         exposure_ev:     stops by which linear colour is raised, -32..32.
         tone_map:        "clip", "filmic" or "agx": how linear colour brighter than white is shown.
@@ -161,8 +163,7 @@ class Publisher:
         refused frame raises from the future.
         """
         with self._send_lock:
-            with self._changed:
-                self._changed.wait_for(self._ledger.may_send)
+            self._wait_for_turn()
             messages = frame_messages(
                 self._ledger.next_number(), sources, exposure_ev=exposure_ev, tone_map=tone_map,
                 capture_time_ns=time.time_ns() if capture_time_ns is None else capture_time_ns,
@@ -174,6 +175,18 @@ class Publisher:
                 promise = self._ledger.open_frame(messages)
                 self._outbox.put(messages)  # of a call that broke: the next one takes it from there
             return promise
+
+    def _wait_for_turn(self) -> None:
+        """Until there is room for a frame, and the server would use it."""
+        with self._changed:
+            while True:
+                self._changed.wait_for(self._ledger.may_send)
+                now_s = time.monotonic()
+                left_s = self._ledger.pace.left_s(now_s)
+                if left_s <= 0:
+                    self._ledger.pace.note(now_s)
+                    return
+                self._changed.wait(left_s)
 
     def close(self, timeout_s: float = CLOSE_TIMEOUT_S) -> None:
         """Waits for the reports of what was sent, and ends the stream.

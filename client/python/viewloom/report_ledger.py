@@ -9,6 +9,7 @@ from typing import Any, Callable, Generic, Optional, Protocol, TypeVar
 import grpc
 
 from viewloom.errors import ViewloomError
+from viewloom.send_pace import SendPace
 from viewloom.v1 import ingest_service_pb2
 from viewloom.v1.ingest_service_pb2 import (FrameReport, PublishAccepted, PublishFramesRequest,
                                             PublishFramesResponse, Wanted)
@@ -59,6 +60,7 @@ class ReportLedger(Generic[PromiseT]):
         self.is_open = False  # the server has accepted the call that is under way
         self.accepted: Optional[PublishAccepted] = None
         self.wanted: Optional[Wanted] = None
+        self.pace = SendPace()
         self.ended: Optional[ViewloomError] = None  # why no frame can be sent any more
 
     def next_number(self) -> int:
@@ -94,6 +96,7 @@ class ReportLedger(Generic[PromiseT]):
             self.accepted, self.is_open = response.accepted, True
         elif kind == "wanted":
             self.wanted = response.wanted
+            self.pace.set_rate(response.wanted.rate_hz)
         elif kind == "report":
             frame = self._in_flight.pop(response.report.number, None)
             if frame is not None:
@@ -110,6 +113,7 @@ class ReportLedger(Generic[PromiseT]):
     def call_ended(self) -> None:
         """A new call may follow."""
         self.is_open = False
+        self.pace.set_rate(0)  # until the server says otherwise
 
     def end(self, error: Optional[ViewloomError]) -> None:
         """The last call is over: with an error, or, with None, because it was closed."""

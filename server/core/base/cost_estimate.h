@@ -17,7 +17,7 @@ inline constexpr int64_t kPiece_ns = 10'000'000;
 // may be lost.
 class CostEstimate {
  public:
-  // What a unit is taken to cost until something was measured; > 0.
+  // A unit is taken to cost that much until something was measured; > 0.
   explicit CostEstimate(double start_ns_per_unit) : ns_per_unit_(start_ns_per_unit) {}
   // Begins with what the other one has learnt.
   CostEstimate(const CostEstimate& other) : ns_per_unit_(other.nsPerUnit()) {}
@@ -28,7 +28,7 @@ class CostEstimate {
 
   double nsPerUnit() const { return ns_per_unit_; }
   int64_t predictNs(uint64_t units) const { return int64_t(nsPerUnit() * double(units)); }
-  // As many units as a time suffices for, at least 1.
+  // Units that a time suffices for, at least 1.
   uint64_t unitsFor(int64_t time_ns) const {
     const double units = double(time_ns) / nsPerUnit();
     return uint64_t(std::clamp(units, 1.0, kUnitsMax));

@@ -25,12 +25,43 @@ WorkerPool::~WorkerPool() {
 }
 
 void WorkerPool::forEach(uint32_t count, const Piece& piece) {
-  const std::lock_guard one_caller(task_mutex_);
+  // Ends also where a piece throws.
+  struct Turn {
+    explicit Turn(WorkerPool& its_pool) : pool(its_pool) { pool.waitForTurn(); }
+    ~Turn() { pool.endTurn(); }
+    WorkerPool& pool;
+  };
+  for (uint32_t first = 0; first < count;) {
+    const Turn turn(*this);
+    first = takeTurn(first, count, piece);
+  }
+}
+
+void WorkerPool::waitForTurn() {
+  std::unique_lock lock(turn_mutex_);
+  const uint64_t ticket = ++last_ticket_;
+  ++waiting_count_;
+  turned_.wait(lock, [&] { return served_ticket_ == ticket; });
+  --waiting_count_;
+}
+
+void WorkerPool::endTurn() {
+  const std::lock_guard lock(turn_mutex_);
+  ++served_ticket_;
+  turned_.notify_all();
+}
+
+bool WorkerPool::isOver() const {
+  return waiting_count_ > 0 && std::chrono::steady_clock::now() >= turn_end_;
+}
+
+uint32_t WorkerPool::takeTurn(uint32_t first, uint32_t count, const Piece& piece) {
+  turn_end_ = std::chrono::steady_clock::now() + kTurn;
   {
     const std::lock_guard lock(mutex_);
     piece_ = &piece;
     count_ = count;
-    next_ = 0;
+    next_ = first;
     ++task_number_;
     busy_count_ = uint32_t(threads_.size());
   }
@@ -41,11 +72,16 @@ void WorkerPool::forEach(uint32_t count, const Piece& piece) {
   if (const std::exception_ptr failure = std::exchange(failure_, nullptr)) {
     std::rethrow_exception(failure);
   }
+  return next_;
 }
 
 void WorkerPool::takePieces(uint32_t worker) {
   try {
-    for (uint32_t index = next_++; index < count_; index = next_++) (*piece_)(index, worker);
+    do {
+      const uint32_t index = next_++;
+      if (index >= count_) return;
+      (*piece_)(index, worker);
+    } while (!isOver());
   } catch (...) {
     noteFailure();
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <exception>
@@ -15,7 +16,7 @@
 namespace viewloom {
 
 // A pool of workers. Thread-safety: forEach() may be called from any thread. Tasks of several
-// callers run one after the other.
+// callers take turns: each gets the workers for about kTurn, in the order in which they wait.
 class WorkerPool {
  public:
   // Number of workers, including the caller of forEach(). 0 = one for each core.
@@ -33,12 +34,24 @@ class WorkerPool {
   void forEach(uint32_t count, const Piece& piece);
 
  private:
+  static constexpr std::chrono::milliseconds kTurn{10};
+
   void run(const std::stop_token& stop, uint32_t worker);
   void takePieces(uint32_t worker);
   void noteFailure();
+  void waitForTurn();
+  void endTurn();
+  // Does pieces from the first on. Returns the first that is left: others wait for their turn.
+  uint32_t takeTurn(uint32_t first, uint32_t count, const Piece& piece);
+  bool isOver() const;
 
-  std::mutex task_mutex_;  // one caller at a time
-  std::mutex mutex_;       // guards what follows, but for next_
+  std::mutex turn_mutex_;  // guards the next three
+  std::condition_variable turned_;
+  uint64_t last_ticket_ = 0;
+  uint64_t served_ticket_ = 1;               // whose turn it is
+  std::atomic<uint32_t> waiting_count_ = 0;  // callers
+  std::chrono::steady_clock::time_point turn_end_;
+  std::mutex mutex_;  // guards what follows, but for next_
   std::condition_variable_any begun_;
   std::condition_variable ended_;
   const Piece* piece_ = nullptr;

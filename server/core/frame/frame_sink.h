@@ -52,6 +52,11 @@ class FrameSink {
   virtual ~FrameSink() = default;
   // Takes the newest frame of a stream. An older one that still waits is reported as kReplaced.
   virtual void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) = 0;
+  // A frame of the stream waits: another one would replace it.
+  virtual bool isFull(const std::string&) const { return false; }
+  // `then` is called on any thread when a frame was taken that had waited. Set once, before frames
+  // come.
+  virtual void onRoom(std::function<void()>) {}
   // Drops the structure of a stream whose name is free and that nobody watches.
   virtual void forgetStream(const std::string& stream) = 0;
 };

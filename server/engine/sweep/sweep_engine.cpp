@@ -11,11 +11,15 @@
 namespace viewloom {
 namespace {
 
-// All threads sweep one tracked display at a time. The eyes of the next display are taken when its
-// turn comes.
+// All threads sweep one tracked display of a payer at a time. The eyes of the next display are
+// taken when its turn comes.
 constexpr size_t kAtlasesForEyes = 1;
-// So short that an atlas that is due sooner need not wait, long enough that threads seldom meet.
-constexpr uint32_t kRowsPerPiece = 16;
+// Largest atlas of which each picture may always have one: some 10 MB.
+constexpr uint64_t kSmallAtlas_px = uint64_t{1} << 20;
+// So long that threads seldom meet. Rows of large atlases take longer: then a piece has fewer.
+constexpr uint32_t kRowsPerPieceMax = 16;
+// Time of a px of an atlas until something was measured.
+constexpr double kPxStart_ns = 50;
 
 class SweptFrame final : public PreparedFrame {
  public:
@@ -33,7 +37,8 @@ class SweptFrame final : public PreparedFrame {
     if (!reserved.ok()) throw EngineOutOfMemory(std::string(reserved.status().message()));
     reserved_ = *std::move(reserved);
   }
-  int64_t prepare(const Clock&) override {
+  // All workers take its pieces, between which they serve others.
+  int64_t prepare(const Clock&, const PreparationEvents&) override {
     if (!frame_) return 0;
     reserve();
     source_.prepare(std::move(frame_), workers_);
@@ -70,45 +75,81 @@ const SweepSource& sourceOf(const PreparedFrame& frame) {
 }
 
 struct PictureSweep final : Plan {
-  PictureSweep(SweepPlan swept_plan, double source_inv_z_max)
-      : plan(std::move(swept_plan)), inv_z_max(source_inv_z_max) {}
+  PictureSweep(SweepPlan swept_plan, double source_inv_z_max, uint64_t area_px,
+               std::shared_ptr<CostEstimate> cost_of_all)
+      : plan(std::move(swept_plan)),
+        inv_z_max(source_inv_z_max),
+        row_px(std::max<uint64_t>(area_px / plan.rowCount(), 1)),
+        of_all(std::move(cost_of_all)),
+        px_cost(std::make_shared<CostEstimate>(*of_all)) {}
 
   bool holdsFor(const PreparedFrame& frame) const override {
     return sourceOf(frame).measured().stats.inv_z_max == inv_z_max;
   }
 
   const SweepPlan plan;
-  const double inv_z_max;  // of the source, 1/m
+  void note(uint64_t row_count, int64_t measured_ns) const {
+    px_cost->note(row_count * row_px, measured_ns);
+    of_all->note(row_count * row_px, measured_ns);
+  }
+
+  const double inv_z_max;                       // of the source, 1/m
+  const uint64_t row_px;                        // of the atlas, that a row of the plan fills
+  const std::shared_ptr<CostEstimate> of_all;   // of a px of all pictures
+  const std::shared_ptr<CostEstimate> px_cost;  // of this picture
+};
+
+// How the rows of a plan are cut into pieces of bounded work.
+struct SweepPieces {
+  explicit SweepPieces(const PictureSweep& sweep) {
+    const uint64_t rows = sweep.px_cost->unitsFor(kPiece_ns) / sweep.row_px;
+    // Pairs of rows stay together.
+    while (row_count > 2 && row_count > rows) row_count /= 2;
+    piece_count = (sweep.plan.rowCount() + row_count - 1) / row_count;
+    piece_ns = sweep.px_cost->predictNs(row_count * sweep.row_px);
+  }
+
+  uint32_t row_count = kRowsPerPieceMax;  // of a piece
+  uint32_t piece_count = 0;
+  int64_t piece_ns = 0;
 };
 
 // The whole atlas at once: its rows lie all over it.
 class AtlasSweep final : public StripWork {
  public:
-  AtlasSweep(AtlasOrder order, TraceOutputs planes, std::shared_ptr<HeldAtlas> atlas,
-             std::shared_ptr<SweeperShelf> sweepers)
-      : StripWork({.strip_count = order.strips.count(), .piece_count = pieceCount(planOf(order))}),
+  AtlasSweep(const SweepPieces& pieces, AtlasOrder order, TraceOutputs planes,
+             std::shared_ptr<HeldAtlas> atlas, std::shared_ptr<SweeperShelf> sweepers)
+      : StripWork({.strip_count = order.strips.count(),
+                   .piece_count = pieces.piece_count,
+                   .piece_ns = pieces.piece_ns,
+                   .begins_with_one = true}),
+        rows_per_piece_(pieces.row_count),
         order_(std::move(order)),
         planes_(planes),
         atlas_(std::move(atlas)),
-        sweepers_(std::move(sweepers)) {
-    atlas_->planes.begin(*order_.picture, planes_);
+        sweepers_(std::move(sweepers)) {}
+
+  static const PictureSweep& sweepOf(const AtlasOrder& order) {
+    return static_cast<const PictureSweep&>(*order.plan);
   }
 
-  static const SweepPlan& planOf(const AtlasOrder& order) {
-    return static_cast<const PictureSweep&>(*order.plan).plan;
+  void notePiece(int64_t measured_ns) override {
+    sweepOf(order_).note(rows_per_piece_, measured_ns);
   }
 
+  // The first one makes room for all.
   void makePiece(uint32_t piece) override {
-    const SweepPlan& plan = planOf(order_);
+    if (piece == 0) atlas_->planes.begin(*order_.picture, planes_);
+    const SweepPlan& plan = sweepOf(order_).plan;
     const SweepSource& source = sourceOf(*order_.frames.front());
-    const uint32_t first = piece * kRowsPerPiece;
+    const uint32_t first = piece * rows_per_piece_;
     std::unique_ptr<ViewSweeper> sweeper = sweepers_->take();
     const Coverage coverage = sweeper->sweepRows(
         {.job = order_.picture.get(),
          .plan = &plan,
          .source = source.rowSource(),
          .inv_z_max = float(source.measured().stats.inv_z_max)},
-        first, std::min(kRowsPerPiece, plan.rowCount() - first), planes_, atlas_->planes);
+        first, std::min(rows_per_piece_, plan.rowCount() - first), planes_, atlas_->planes);
     sweepers_->putBack(std::move(sweeper));
     std::lock_guard lock(mutex_);
     counts_.coverage.add(coverage);
@@ -136,10 +177,7 @@ class AtlasSweep final : public StripWork {
   }
 
  private:
-  static uint32_t pieceCount(const SweepPlan& plan) {
-    return (plan.rowCount() + kRowsPerPiece - 1) / kRowsPerPiece;
-  }
-
+  const uint32_t rows_per_piece_;
   const AtlasOrder order_;
   const TraceOutputs planes_;
   const std::shared_ptr<HeldAtlas> atlas_;  // holding it keeps it from reuse
@@ -154,7 +192,8 @@ class SweepMaking final : public Making {
   SweepMaking(AtlasOrder order, const TraceOutputs& planes, std::shared_ptr<HeldAtlas> atlas,
               std::shared_ptr<SweeperShelf> sweepers, HandOn hand_on)
       : planes_(planes), hand_on_(std::move(hand_on)) {
-    work_ = std::make_unique<AtlasSweep>(std::move(order), planes_, std::move(atlas),
+    const SweepPieces pieces(AtlasSweep::sweepOf(order));
+    work_ = std::make_unique<AtlasSweep>(pieces, std::move(order), planes_, std::move(atlas),
                                          std::move(sweepers));
   }
 
@@ -164,6 +203,7 @@ class SweepMaking final : public Making {
     hand_on_(std::move(work_));
     return {.is_last = true};
   }
+  void giveUp() override {}
 
  private:
   TraceOutputs planes_;
@@ -186,18 +226,19 @@ void SweeperShelf::putBack(std::unique_ptr<ViewSweeper> sweeper) {
   free_.push_back(std::move(sweeper));
 }
 
-std::shared_ptr<HeldAtlas> AtlasPool::take() {
-  if (aside_) return std::exchange(aside_, nullptr);
-  return slots_.take([](const HeldAtlas&) { return true; },
-                     [] { return std::make_unique<HeldAtlas>(); });
+std::shared_ptr<HeldAtlas> AtlasPool::take(const std::string& key) {
+  if (aside_ && slots_.passOn(aside_, key)) return std::exchange(aside_, nullptr);
+  return slots_.take(
+      key, [](const HeldAtlas&) { return true; }, [] { return std::make_unique<HeldAtlas>(); });
 }
 
-SweepEngine::SweepEngine(uint32_t atlas_count_max, WorkerPool& workers, MemoryBudget& memory)
+SweepEngine::SweepEngine(uint32_t atlas_count, WorkerPool& workers, MemoryBudget& memory)
     : workers_(workers),
       memory_(memory),
       sweepers_(std::make_shared<SweeperShelf>()),
-      atlases_(atlas_count_max, [this] { events_.on_room(); }),
-      atlases_for_eyes_(kAtlasesForEyes, [this] { events_.on_room(); }) {
+      atlases_(atlas_count, [this] { events_.on_room(); }),
+      atlases_for_eyes_(kAtlasesForEyes, [this] { events_.on_room(); }),
+      px_cost_(std::make_shared<CostEstimate>(kPxStart_ns)) {
   memory_.addIdle(atlases_.idleMemory());
   memory_.addIdle(atlases_for_eyes_.idleMemory());
 }
@@ -218,16 +259,19 @@ PlanPtr SweepEngine::plan(const PicturePtr& picture, const PreparedFrame& frame)
   const double inv_z_max = sourceOf(frame).measured().stats.inv_z_max;
   std::optional<SweepPlan> plan = SweepPlan::make(*picture, inv_z_max);
   if (!plan) return nullptr;
-  return std::make_shared<PictureSweep>(*std::move(plan), inv_z_max);
+  return std::make_shared<PictureSweep>(*std::move(plan), inv_z_max,
+                                        picture->layout->size_px.area(), px_cost_);
 }
 
 std::unique_ptr<Making> SweepEngine::begin(AtlasOrder order, HandOn hand_on) {
+  const bool is_small = order.picture->layout->size_px.area() <= kSmallAtlas_px;
+  const std::string& key = is_small && !order.is_for_eyes ? order.picture_key : order.payer;
   AtlasPool& pool = order.is_for_eyes ? atlases_for_eyes_ : atlases_;
   const bool are_others_lent = atlases_.lentCount() + atlases_for_eyes_.lentCount() > 0;
-  std::shared_ptr<HeldAtlas> atlas = pool.take();
+  std::shared_ptr<HeldAtlas> atlas = pool.take(key);
   if (!atlas) return nullptr;
   TraceOutputs planes = order.planes;
-  planes.color = AtlasSweep::planOf(order).colorForm(planes.color);
+  planes.color = AtlasSweep::sweepOf(order).plan.colorForm(planes.color);
   if (!makeRoom(order, planes, *atlas)) {
     if (are_others_lent) {
       pool.putAside(std::move(atlas));

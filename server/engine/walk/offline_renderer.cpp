@@ -2,6 +2,7 @@
 #include "walk/offline_renderer.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/check.h"
 #include "picture/display_sources.h"
@@ -72,12 +73,8 @@ void OfflineRenderer::traceBand(const TraceJob& job, BandRows rows, TraceSlot& s
 
 void OfflineRenderer::gatherLens(const TraceJob& job, BandRows rows, TraceSlot& slot) {
   const HostStructure structure = hostStructure(structure_->firstPart());
-  std::vector<BandRows> pieces;
-  while (rows.row_count > 0) {
-    pieces.push_back(firstGathered(*job.layout, rows));
-    rows.first_row += pieces.back().row_count;
-    rows.row_count -= pieces.back().row_count;
-  }
+  const std::vector<BandRows> pieces =
+      gatheredPieces(*job.layout, rows, std::numeric_limits<uint64_t>::max());
   const uint32_t first_row = pieces.front().first_row;
   workers_.forEach(uint32_t(pieces.size()), [&](uint32_t index, uint32_t worker) {
     const BandRows piece = pieces[index];

@@ -2,6 +2,7 @@
 #include "walk/strip_traces.h"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 
 #include "engine/engine.h"
@@ -9,29 +10,33 @@
 namespace viewloom {
 namespace {
 
+// Largest strip of which each picture may always have one: some 10 MB, with a lens or mirrors.
+constexpr uint64_t kSmallStrip_px = uint64_t{1} << 18;
+
 struct NoRoom {};
+
+uint64_t pxOf(const TraceSlotShape& shape) {
+  return uint64_t{shape.width_px} * shape.row_count_max;
+}
 
 }  // namespace
 
-StripTraces::StripTraces(const Device& device, MemoryBudget& memory, uint32_t slot_count_max,
-                         const std::function<void()>& on_return)
-    : device_(device), memory_(memory) {
-  for (const ColorForm color : {ColorForm::kRgba, ColorForm::kYcbcr444, ColorForm::kYcbcr420}) {
-    for (const bool depth : {false, true}) {
-      for (const bool mask : {false, true}) {
-        for (const bool is_for_eyes : {false, true}) {
-          rings_.push_back({is_for_eyes,
-                            {.outputs = {.color = color, .depth = depth, .mask = mask}},
-                            {slot_count_max, on_return}});
-        }
-      }
-    }
-  }
-  for (const Ring& ring : rings_) memory_.addIdle(ring.slots.idleMemory());
+StripTraces::Kind StripTraces::kindOf(const TraceSlotShape& shape) {
+  const TraceOutputs& outputs = shape.outputs;
+  return {outputs.color, outputs.depth, outputs.mask, std::bit_width(pxOf(shape))};
+}
+
+StripTraces::Ring& StripTraces::ringOf(const TraceSlotShape& shape) {
+  const auto [found, is_new] = rings_.try_emplace(
+      kindOf(shape),
+      Ring{.largest = {.outputs = shape.outputs}, .slots = {slot_count_, on_return_}});
+  if (is_new) memory_.addIdle(found->second.slots.idleMemory());
+  return found->second;
 }
 
 bool StripTraces::areSomeLent() const {
-  return std::ranges::any_of(rings_, [](const Ring& ring) { return ring.slots.lentCount() > 0; });
+  return std::ranges::any_of(rings_,
+                             [](const auto& ring) { return ring.second.slots.lentCount() > 0; });
 }
 
 std::unique_ptr<StripTrace> StripTraces::make(const TraceSlotShape& shape) {
@@ -41,15 +46,17 @@ std::unique_ptr<StripTrace> StripTraces::make(const TraceSlotShape& shape) {
   return std::make_unique<StripTrace>(device_, shape, *std::move(reserved));
 }
 
-std::shared_ptr<StripTrace> StripTraces::take(const TraceSlotShape& shape, bool is_for_eyes) {
-  Ring& ring = *std::ranges::find_if(rings_, [&](const Ring& candidate) {
-    return candidate.is_for_eyes == is_for_eyes && candidate.largest.outputs == shape.outputs;
-  });
+std::shared_ptr<StripTrace> StripTraces::take(const TraceSlotShape& shape,
+                                              const AtlasOrder& order) {
+  Ring& ring = ringOf(shape);
   if (ring.slots.isEmpty()) ring.largest = shape;
   ring.largest.include(shape);
+  const bool is_small = pxOf(shape) <= kSmallStrip_px;
   try {
-    return ring.slots.take([&](const StripTrace& free) { return free.slot.shape().holds(shape); },
-                           [&] { return make(ring.largest); });
+    return ring.slots.take(
+        is_small ? order.picture_key : order.payer,
+        [&](const StripTrace& free) { return free.slot.shape().holds(shape); },
+        [&] { return make(ring.largest); });
   } catch (const NoRoom&) {
     if (areSomeLent()) return nullptr;
     throw EngineOutOfMemory(

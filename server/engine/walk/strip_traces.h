@@ -5,12 +5,15 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
+#include <string>
+#include <tuple>
 #include <utility>
-#include <vector>
 
 #include "admission/memory_budget.h"
-#include "base/slot_pool.h"
+#include "base/keyed_slots.h"
+#include "engine/engine.h"
 #include "gpu/submission.h"
 #include "trace/trace_slot.h"
 
@@ -29,32 +32,43 @@ struct StripTrace {
   std::array<uint64_t, 2> submitted = {};  // timeline values of their last submissions
 };
 
-// Slots are kept apart by the planes that they trace, and grow to the largest strip that was asked
-// for since there were none. Device and memory outlive it. Thread-safety: take() from one thread.
+// Slots are kept apart by the planes that they trace and by their size, so that small strips do not
+// take the memory of large ones. They grow to the largest strip of their size that was asked for
+// since there were none. Device and memory outlive it. Thread-safety: take() from one thread.
 class StripTraces {
  public:
-  // So many with the same planes. `on_return` is called on any thread.
-  StripTraces(const Device& device, MemoryBudget& memory, uint32_t slot_count_max,
-              const std::function<void()>& on_return);
+  // So many of the same planes and size, beside one small one of each picture and one large one of
+  // each payer. `on_return` is called on any thread.
+  StripTraces(const Device& device, MemoryBudget& memory, uint32_t slot_count,
+              std::function<void()> on_return)
+      : device_(device),
+        memory_(memory),
+        slot_count_(slot_count),
+        on_return_(std::move(on_return)) {}
 
-  // Those for eyes are no others: tracked displays wait for nobody else's strips. Holding it keeps
-  // it from reuse. nullptr: all are lent, or the budget has no room until one comes back. Throws
+  // For an order's strips. Holding it keeps it from reuse. nullptr: its picture or its payer has
+  // one, and all others are lent, or the budget has no room until one comes back. Throws
   // EngineOutOfMemory where none would come back.
-  std::shared_ptr<StripTrace> take(const TraceSlotShape& shape, bool is_for_eyes);
+  std::shared_ptr<StripTrace> take(const TraceSlotShape& shape, const AtlasOrder& order);
 
  private:
   struct Ring {
-    bool is_for_eyes = false;
     TraceSlotShape largest;
-    SlotPool<StripTrace> slots;
+    KeyedSlots<StripTrace> slots;
   };
+  // Planes, and the power of two that the px of a strip are less than.
+  using Kind = std::tuple<ColorForm, bool, bool, int>;
+  static Kind kindOf(const TraceSlotShape& shape);
 
+  Ring& ringOf(const TraceSlotShape& shape);
   std::unique_ptr<StripTrace> make(const TraceSlotShape& shape);
   bool areSomeLent() const;
 
   const Device& device_;
   MemoryBudget& memory_;
-  std::vector<Ring> rings_;
+  const uint32_t slot_count_;
+  const std::function<void()> on_return_;
+  std::map<Kind, Ring> rings_;
 };
 
 }  // namespace viewloom

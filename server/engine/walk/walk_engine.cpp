@@ -24,6 +24,16 @@ class WalkedFramePreparer final : public FramePreparer {
   const std::shared_ptr<StreamBuilds> builds_;
 };
 
+// Until something was measured: as slow as a software device is with one core, or slower than any
+// hardware.
+WalkCosts startCosts(const Device& device) {
+  constexpr double kSoftwareRay_ns = 2000;
+  constexpr double kHardwareRay_ns = 5;
+  constexpr double kGatheredRay_ns = 20;
+  return {.on_device = PartCosts(device.info().is_software ? kSoftwareRay_ns : kHardwareRay_ns),
+          .on_host = CostEstimate(kGatheredRay_ns)};
+}
+
 // A picture needs one to three kernels that others do not have.
 constexpr uint32_t kCompileThreads = 2;
 
@@ -38,6 +48,8 @@ WalkEngine::WalkEngine(const Device& device, const WalkOptions& options)
       tracer_(device),
       strips_(device, options.memory, options.strip_count_max, [this] { events_.on_room(); }),
       gatherers_(std::make_shared<GathererShelf>()),
+      costs_(std::make_shared<WalkCosts>(startCosts(device))),
+      meter_(works_.timeline, watch_, works_.clock),
       watch_(works_.timeline, [this](const std::exception& error) { events_.on_failure(error); }) {
   if (options.warms_up) warm_up_.emplace(works_, tracer_);
   if (options.compile_place == CompilePlace::kRecordingThread) return;
@@ -68,7 +80,8 @@ std::unique_ptr<FramePreparer> WalkEngine::preparer() {
 }
 
 PlanPtr WalkEngine::plan(const PicturePtr& picture, const PreparedFrame& frame) const {
-  return std::make_shared<WalkPlan>(works_.device, picture, static_cast<const WalkedFrame&>(frame));
+  return std::make_shared<WalkPlan>(works_.device, picture, static_cast<const WalkedFrame&>(frame),
+                                    costs_);
 }
 
 bool WalkEngine::isReady(const AtlasOrder& order, std::function<void()> then) {
@@ -105,13 +118,14 @@ void WalkEngine::drain() {
 
 std::unique_ptr<Making> WalkEngine::begin(AtlasOrder order, HandOn hand_on) {
   order.planes.color = tracer_.colorForm(order.planes.color);
-  std::shared_ptr<StripTrace> trace = withinDeviceMemory(
-      [&] { return strips_.take(WalkMaking::stripShape(order), order.is_for_eyes); });
+  std::shared_ptr<StripTrace> trace =
+      withinDeviceMemory([&] { return strips_.take(WalkMaking::stripShape(order), order); });
   if (!trace) return nullptr;
   const WalkTools tools{.timeline = works_.timeline,
                         .tracer = tracer_,
                         .strips = strips_,
                         .watch = watch_,
+                        .meter = meter_,
                         .gatherers = gatherers_};
   return std::make_unique<WalkMaking>(tools, std::move(order), std::move(trace),
                                       std::move(hand_on));

@@ -52,7 +52,7 @@ class WalkEngine final : public Engine {
   std::unique_ptr<FramePreparer> preparer() override;
   PlanPtr plan(const PicturePtr& picture, const PreparedFrame& frame) const override;
   bool isReady(const AtlasOrder& order, std::function<void()> then) override;
-  bool hasRoomForEyes() const override { return true; }
+  bool hasRoomForEyes(const std::string&) override { return true; }
   std::unique_ptr<Making> begin(AtlasOrder order, HandOn hand_on) override;
   bool workAhead() override;
   void drain() override;
@@ -69,6 +69,8 @@ class WalkEngine final : public Engine {
   EngineEvents events_;
   StripTraces strips_;
   const std::shared_ptr<GathererShelf> gatherers_;
+  const std::shared_ptr<WalkCosts> costs_;  // of all pictures
+  PartMeter meter_;
   DeviceWatch watch_;                       // from here on: what they tell uses all of the above
   std::optional<KernelCompiler> compiler_;  // of kOwnThreads
   std::jthread warmer_;                     // likewise, from connect() on

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "walk/walk_making.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "lens/host_structure.h"
@@ -38,24 +39,24 @@ PicturePtr settled(bool is_in_reach, const PicturePtr& whole) {
   return picture;
 }
 
+uint64_t gatheredRays(const TraceJob& picture, uint64_t row_count) {
+  return row_count * picture.layout->size_px.width * picture.layout->lens->pointCount();
+}
+
 // Rows of the strip that threads gather the lens of, piece by piece.
-std::vector<BandRows> gatheredPieces(const TraceJob& picture, BandRows rows) {
-  std::vector<BandRows> pieces;
-  while (picture.gathers_on_host && rows.row_count > 0) {
-    pieces.push_back(firstGathered(*picture.layout, rows));
-    rows.first_row += pieces.back().row_count;
-    rows.row_count -= pieces.back().row_count;
-  }
-  return pieces;
+std::vector<BandRows> gatheredPieces(const TraceJob& picture, BandRows rows, uint64_t ray_count) {
+  if (!picture.gathers_on_host) return {};
+  return gatheredPieces(*picture.layout, rows, ray_count);
 }
 
 // A strip that the device is done with.
 class WalkedStrip final : public StripWork {
  public:
   WalkedStrip(PicturePtr picture, uint32_t strip, BandRows rows, const StructureSlot& structure,
-              std::shared_ptr<StripTrace> trace, std::shared_ptr<GathererShelf> gatherers)
-      : WalkedStrip(gatheredPieces(*picture, rows), picture, strip, rows, structure,
-                    std::move(trace), std::move(gatherers)) {}
+              std::shared_ptr<StripTrace> trace, std::shared_ptr<GathererShelf> gatherers,
+              const std::shared_ptr<WalkCosts>& costs)
+      : WalkedStrip(gatheredPieces(*picture, rows, costs->on_host.unitsFor(kPiece_ns)), picture,
+                    strip, rows, structure, std::move(trace), std::move(gatherers), costs) {}
 
   void makePiece(uint32_t index) override {
     const BandRows& piece = pieces_[index];
@@ -64,6 +65,10 @@ class WalkedStrip final : public StripWork {
         hostStructure(structure_), *picture_,
         bandOf(trace_->slot, *picture_->layout, piece, piece.first_row - rows_.first_row));
     gatherers_->putBack(std::move(gatherer));
+  }
+
+  void notePiece(int64_t measured_ns) override {
+    costs_->noteHost(gatheredRays(*picture_, rows_.row_count) / pieces_.size(), measured_ns);
   }
 
   RayCounts counts() const override {
@@ -82,14 +87,19 @@ class WalkedStrip final : public StripWork {
  private:
   WalkedStrip(std::vector<BandRows> pieces, PicturePtr picture, uint32_t strip, BandRows rows,
               const StructureSlot& structure, std::shared_ptr<StripTrace> trace,
-              std::shared_ptr<GathererShelf> gatherers)
-      : StripWork({.first_strip = strip, .piece_count = uint32_t(pieces.size())}),
+              std::shared_ptr<GathererShelf> gatherers, std::shared_ptr<WalkCosts> costs)
+      : StripWork({.first_strip = strip,
+                   .piece_count = uint32_t(pieces.size()),
+                   .piece_ns = pieces.empty() ? 0
+                                              : costs->on_host.predictNs(gatheredRays(
+                                                    *picture, rows.row_count / pieces.size()))}),
         pieces_(std::move(pieces)),
         picture_(std::move(picture)),
         rows_(rows),
         structure_(structure),
         trace_(std::move(trace)),
-        gatherers_(std::move(gatherers)) {}
+        gatherers_(std::move(gatherers)),
+        costs_(std::move(costs)) {}
 
   const std::vector<BandRows> pieces_;
   const PicturePtr picture_;
@@ -97,14 +107,29 @@ class WalkedStrip final : public StripWork {
   const StructureSlot& structure_;
   const std::shared_ptr<StripTrace> trace_;  // holding it keeps it from reuse
   const std::shared_ptr<GathererShelf> gatherers_;
+  const std::shared_ptr<WalkCosts> costs_;
 };
 
 }  // namespace
 
-WalkPlan::WalkPlan(const Device& used_device, const PicturePtr& whole, const WalkedFrame& frame)
+void WalkCosts::note(RayKind kind, uint64_t ray_count, int64_t measured_ns) {
+  on_device[kind].note(ray_count, measured_ns);
+  if (of_all) of_all->note(kind, ray_count, measured_ns);
+}
+
+void WalkCosts::noteHost(uint64_t ray_count, int64_t measured_ns) {
+  on_host.note(ray_count, measured_ns);
+  if (of_all) of_all->noteHost(ray_count, measured_ns);
+}
+
+WalkPlan::WalkPlan(const Device& used_device, const PicturePtr& whole, const WalkedFrame& frame,
+                   std::shared_ptr<WalkCosts> of_all)
     : device(used_device),
       is_in_reach(isInReach(used_device, frame)),
-      picture(settled(is_in_reach, whole)) {}
+      picture(settled(is_in_reach, whole)),
+      costs(std::make_shared<WalkCosts>(*of_all)) {
+  costs->of_all = std::move(of_all);
+}
 
 bool WalkPlan::holdsFor(const PreparedFrame& frame) const {
   return isInReach(device, walked(frame)) == is_in_reach;
@@ -128,6 +153,7 @@ WalkMaking::WalkMaking(WalkTools tools, AtlasOrder order, std::shared_ptr<StripT
     : tools_(std::move(tools)),
       order_(std::move(order)),
       picture_(tracedPicture(order_)),
+      costs_(static_cast<const WalkPlan&>(*order_.plan).costs),
       hand_on_(std::move(hand_on)),
       structures_(structuresOf(order_)),
       trace_(std::move(trace)) {}
@@ -147,29 +173,78 @@ MakingStep WalkMaking::step() {
 }
 
 MakingStep WalkMaking::makePart() {
-  if (!trace_) trace_ = tools_.strips.take(stripShape(order_), order_.is_for_eyes);
+  if (!trace_) trace_ = tools_.strips.take(stripShape(order_), order_);
   if (!trace_) return {.has_room = false};
+  if (!has_means_) {
+    const MakingStep step = stepMeans();
+    has_means_ = step.predicted_ns == 0;
+    if (!has_means_) return step;
+  }
+  return stepPart();
+}
+
+// The first of its atlases makes means for all pictures of the frame with as large px. Another one
+// that needs them goes on with them.
+MakingStep WalkMaking::stepMeans() {
+  CommandRecorder& recorder = nextRecorder();
+  const uint64_t texel_count =
+      tools_.tracer.recordMeans(recorder.begin(), structures_, *picture_, order_.planes,
+                                costs_->on_device[RayKind::kMeans].unitsFor(kPiece_ns));
+  if (texel_count == 0) return {};
+  return {.predicted_ns = submit(recorder, RayKind::kMeans, texel_count)};
+}
+
+MakingStep WalkMaking::stepPart() {
   const BandRows rows = order_.strips.rowsOf(strip_);
-  const BandParts parts(*picture_, rows);
-  MakingStep step{.ray_count = parts.at(part_).ray_count};
-  const size_t turn = part_ % trace_->recorders.size();
-  tools_.timeline.wait(trace_->submitted[turn]);
-  tools_.tracer.recordPart(trace_->recorders[turn].begin(), structures_, *picture_, rows, part_,
-                           trace_->slot);
-  const uint64_t value = trace_->recorders[turn].submit(tools_.timeline);
-  trace_->submitted[turn] = value;
-  if (++part_ < parts.count()) return step;
-  part_ = 0;
-  handOn(value);
+  if (!parts_) parts_.emplace(*picture_, rows);
+  const RayKind kind = kindOf(parts_->kind());
+  const uint64_t ray_count_max = std::min(kPartRays, costs_->on_device[kind].unitsFor(kPiece_ns));
+  const BandPart part = parts_->take(ray_count_max);
+  CommandRecorder& recorder = nextRecorder();
+  tools_.tracer.recordPart(recorder.begin(), structures_, *picture_, rows, part, trace_->slot);
+  MakingStep step{.predicted_ns = submit(recorder, kind, part.ray_count)};
+  if (!part.is_last) return step;
+  parts_.reset();
+  handOn(last_value_);
   step.is_last = ++strip_ == order_.strips.count();
   return step;
 }
 
+RayKind WalkMaking::kindOf(PartKind kind) const {
+  if (kind == PartKind::kReflect) return RayKind::kReflected;
+  if (kind == PartKind::kGather) return RayKind::kGathered;
+  if (picture_->walk_count > 1) return RayKind::kMerged;
+  return picture_->hasLens() && !picture_->gathers_on_host ? RayKind::kThroughLens
+                                                           : RayKind::kWalked;
+}
+
+CommandRecorder& WalkMaking::nextRecorder() {
+  turn_ = (turn_ + 1) % uint32_t(trace_->recorders.size());
+  tools_.timeline.wait(trace_->submitted[turn_]);
+  return trace_->recorders[turn_];
+}
+
+int64_t WalkMaking::submit(CommandRecorder& recorder, RayKind kind, uint64_t ray_count) {
+  const int64_t predicted_ns = std::max<int64_t>(1, costs_->on_device[kind].predictNs(ray_count));
+  last_value_ = recorder.submit(tools_.timeline);
+  trace_->submitted[turn_] = last_value_;
+  tools_.meter.note(last_value_, [costs = costs_, kind, ray_count, predicted_ns,
+                                  note_work = order_.note_work](int64_t measured_ns) {
+    costs->note(kind, ray_count, measured_ns);
+    if (note_work) note_work({.predicted_ns = predicted_ns, .measured_ns = measured_ns});
+  });
+  return predicted_ns;
+}
+
+void WalkMaking::giveUp() {
+  tools_.timeline.wait(last_value_);
+}
+
 // With its last part the slot goes on to those who finish the strip.
 void WalkMaking::handOn(uint64_t timeline_value) {
-  auto work = std::make_shared<StripWorkPtr>(
-      std::make_unique<WalkedStrip>(picture_, strip_, order_.strips.rowsOf(strip_),
-                                    *structures_.front(), std::move(trace_), tools_.gatherers));
+  auto work = std::make_shared<StripWorkPtr>(std::make_unique<WalkedStrip>(
+      picture_, strip_, order_.strips.rowsOf(strip_), *structures_.front(), std::move(trace_),
+      tools_.gatherers, costs_));
   tools_.watch.whenDone(timeline_value, [work, hand_on = hand_on_] { hand_on(std::move(*work)); });
 }
 

@@ -1,29 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
-// One atlas that is walked: part by part, at most two of them ahead of the device.
+// One atlas that is walked: part by part, each of bounded work.
 #pragma once
 
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "engine/engine.h"
 #include "lens/band_gatherer.h"
 #include "trace/view_tracer.h"
 #include "walk/device_watch.h"
+#include "walk/part_costs.h"
+#include "walk/part_meter.h"
 #include "walk/strip_traces.h"
 #include "walk/walked_frame.h"
 
 namespace viewloom {
 
+// How long rays of a picture take, and those of all pictures. Thread-safety: as CostEstimate.
+struct WalkCosts {
+  PartCosts on_device;
+  CostEstimate on_host;  // a gathered ray of a lens
+  std::shared_ptr<WalkCosts> of_all = nullptr;
+
+  void note(RayKind kind, uint64_t ray_count, int64_t measured_ns);
+  void noteHost(uint64_t ray_count, int64_t measured_ns);
+};
+
 // The picture as it is traced. Where the CPU gathers its lens, that is a picture of its own: the
 // device then traces the middle rays alone.
 struct WalkPlan final : Plan {
-  WalkPlan(const Device& device, const PicturePtr& whole, const WalkedFrame& frame);
+  // `costs`: what is known of other pictures; they learn from this one.
+  WalkPlan(const Device& device, const PicturePtr& whole, const WalkedFrame& frame,
+           std::shared_ptr<WalkCosts> costs);
   bool holdsFor(const PreparedFrame& frame) const override;
 
   const Device& device;
   const bool is_in_reach;  // of the CPU: the structure of such frames
   const PicturePtr picture;
+  const std::shared_ptr<WalkCosts> costs;  // of this picture
 };
 
 // Gatherers that threads take for a piece. Thread-safety: all methods may be called from any
@@ -44,6 +60,7 @@ struct WalkTools {
   ViewTracer& tracer;
   StripTraces& strips;
   DeviceWatch& watch;
+  PartMeter& meter;
   std::shared_ptr<GathererShelf> gatherers;
 };
 
@@ -54,8 +71,9 @@ class WalkMaking final : public Making {
 
   const TraceOutputs& planes() const override { return order_.planes; }
   bool holdsRoom() const override { return trace_ != nullptr; }
-  // Waits until the device is no more than two parts behind. Throws EngineOutOfMemory.
+  // Waits until the device has no more than this part to do. Throws EngineOutOfMemory.
   MakingStep step() override;
+  void giveUp() override;
 
   // Kernels that the strips of such an atlas need and nobody has compiled.
   static MissingKernels missingKernels(ViewTracer& tracer, const AtlasOrder& order);
@@ -64,15 +82,25 @@ class WalkMaking final : public Making {
 
  private:
   MakingStep makePart();
+  MakingStep stepMeans();
+  MakingStep stepPart();
+  CommandRecorder& nextRecorder();
+  // Returns the prediction.
+  int64_t submit(CommandRecorder& recorder, RayKind kind, uint64_t ray_count);
+  RayKind kindOf(PartKind kind) const;
   void handOn(uint64_t timeline_value);
 
   const WalkTools tools_;
   const AtlasOrder order_;
   const PicturePtr picture_;  // as it is traced
+  const std::shared_ptr<WalkCosts> costs_;
   const HandOn hand_on_;
   const std::vector<const StructureSlot*> structures_;
-  uint32_t strip_ = 0;  // the next part is of it
-  uint32_t part_ = 0;
+  uint32_t strip_ = 0;                 // the next part is of it
+  std::optional<BandParts> parts_;     // that are left of the strip; empty before its first
+  uint32_t turn_ = 0;                  // of the recorders
+  uint64_t last_value_ = 0;            // timeline's, of the last submission
+  bool has_means_ = false;             // all that it takes are made
   std::shared_ptr<StripTrace> trace_;  // with the parts of the strip before that
 };
 

@@ -38,12 +38,12 @@ void WalkedFrame::reserve() {
   });
 }
 
-int64_t WalkedFrame::prepare(const Clock& clock) {
+int64_t WalkedFrame::prepare(const Clock& clock, const PreparationEvents& events) {
   if (!frame_) return 0;
   return withinDeviceMemory([&] {
     std::lock_guard lock(builds_->mutex);
     makeRoom();
-    return build(clock);
+    return build(clock, events);
   });
 }
 
@@ -81,14 +81,40 @@ uint64_t WalkedFrame::bytesFor(const Device& device, const FrameFormat& format) 
 }
 
 // The same. Returns how long it took to copy the planes.
-int64_t WalkedFrame::build(const Clock& clock) {
+int64_t WalkedFrame::build(const Clock& clock, const PreparationEvents& events) {
   const int64_t begun_ns = clock.nowNs();
   form_->structure.upload(*frame_);
   const int64_t uploaded_ns = clock.nowNs();
-  form_->structure.recordBuild(form_->recorder.begin(), works_.builder);
-  works_.timeline.wait(form_->recorder.submit(works_.timeline));
+  buildInPieces(events);
   frame_ = nullptr;
   return uploaded_ns - begun_ns;
+}
+
+// One submission at a time, so that others get their turn on the device in between.
+void WalkedFrame::buildInPieces(const PreparationEvents& events) {
+  CommandRecorder& recorder = form_->recorder;
+  const uint64_t piece_px_count = works_.px_cost.unitsFor(kPiece_ns);
+  uint64_t recorded_px_count = 0;
+  const auto submit = [&] {
+    const int64_t predicted_ns = works_.px_cost.predictNs(recorded_px_count);
+    const int64_t submitted_ns = wallTimeNs();
+    works_.timeline.wait(recorder.submit(works_.timeline));
+    const int64_t measured_ns = works_.clock.noteDone(submitted_ns);
+    works_.px_cost.note(recorded_px_count, measured_ns);
+    events.on_piece({.predicted_ns = predicted_ns, .measured_ns = measured_ns});
+    recorded_px_count = 0;
+  };
+  Commands commands = recorder.begin();
+  CutRecording cuts(commands, piece_px_count, [&](uint64_t px_count) {
+    recorded_px_count += px_count;
+    if (recorded_px_count < piece_px_count) return commands;
+    submit();
+    if (events.is_given_up()) throw PreparationGivenUp();
+    commands = recorder.begin();
+    return commands;
+  });
+  form_->structure.recordBuild(cuts, works_.builder);
+  submit();
 }
 
 FrameMeasures WalkedFrame::measures() const {

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "admission/memory_budget.h"
+#include "base/cost_estimate.h"
 #include "engine/engine.h"
 #include "gpu/submission.h"
 #include "structure/frame_structure.h"
 #include "structure/structure_builder.h"
+#include "walk/submission_clock.h"
 
 namespace viewloom {
 
@@ -24,6 +26,12 @@ struct StructureWorks {
   MemoryBudget& memory;
   Timeline timeline;
   const StructureBuilder builder;
+  SubmissionClock clock;
+  CostEstimate px_cost{kBuiltPxStart_ns};  // of a px of a pass
+
+ private:
+  // Until something was measured, as slow as a software device with one core.
+  static constexpr double kBuiltPxStart_ns = 50;
 };
 
 // Memory that all builds of a stream share, one after the other.
@@ -41,7 +49,7 @@ class WalkedFrame final : public PreparedFrame {
 
   void take(FramePtr frame) override;
   void reserve() override;
-  int64_t prepare(const Clock& clock) override;
+  int64_t prepare(const Clock& clock, const PreparationEvents& events) override;
   FrameMeasures measures() const override;
 
   // Memory of this machine that such a frame takes, with what builds take beside it.
@@ -70,7 +78,8 @@ class WalkedFrame final : public PreparedFrame {
 
   void makeRoom();
   Reservation reserveBytes(uint64_t bytes) const;
-  int64_t build(const Clock& clock);
+  int64_t build(const Clock& clock, const PreparationEvents& events);
+  void buildInPieces(const PreparationEvents& events);
 
   StructureWorks& works_;
   const std::shared_ptr<StreamBuilds> builds_;

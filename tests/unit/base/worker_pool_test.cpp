@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <chrono>
 #include <numeric>
 #include <thread>
 #include <vector>
@@ -44,25 +46,27 @@ TEST(WorkerPool, returnsWhenAllPiecesHave) {
   }
 }
 
-TEST(WorkerPool, runsTasksOfSeveralCallersOneAfterTheOther) {
+TEST(WorkerPool, runsPiecesOfOneCallerAtATime) {
   constexpr uint32_t kPieces = 20;
   constexpr uint32_t kRounds = 100;
   WorkerPool pool(3);
-  std::atomic<int> running_task = -1;
+  std::array<std::atomic<int>, 4> running_counts = {};
   std::atomic<uint32_t> mixed_count = 0;
   std::vector<uint64_t> sums(pool.workerCount());  // no lock: one task at a time
   {
     std::vector<std::jthread> callers;
-    for (int caller = 0; caller < 4; ++caller) {
+    for (size_t caller = 0; caller < running_counts.size(); ++caller) {
       callers.emplace_back([&, caller] {
         for (uint32_t round = 0; round < kRounds; ++round) {
           std::atomic<uint32_t> done_count = 0;
           pool.forEach(kPieces, [&](uint32_t index, uint32_t worker) {
+            ++running_counts[caller];
             sums.at(worker) += index;
-            int expected = -1;
-            running_task.compare_exchange_strong(expected, caller);
-            mixed_count += expected != -1 && expected != caller;
-            if (++done_count == kPieces) running_task = -1;
+            for (size_t other = 0; other < running_counts.size(); ++other) {
+              mixed_count += other != caller && running_counts[other] > 0;
+            }
+            --running_counts[caller];
+            ++done_count;
           });
           EXPECT_EQ(done_count, kPieces);
         }
@@ -72,6 +76,25 @@ TEST(WorkerPool, runsTasksOfSeveralCallersOneAfterTheOther) {
   EXPECT_EQ(mixed_count, 0u);
   EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), uint64_t{0}),
             4 * kRounds * kPieces * (kPieces - 1) / 2);
+}
+
+// A caller with a task of a second does not keep one with a short task waiting for so long.
+TEST(WorkerPool, letsCallersTakeTurns) {
+  WorkerPool pool(2);
+  std::atomic<bool> has_begun = false;
+  std::atomic<uint32_t> long_count = 0;
+  const std::jthread long_caller([&] {
+    pool.forEach(1000, [&](uint32_t, uint32_t) {
+      has_begun = true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      ++long_count;
+    });
+  });
+  while (!has_begun) std::this_thread::yield();
+  uint32_t short_count = 0;
+  pool.forEach(1, [&](uint32_t, uint32_t) { ++short_count; });
+  EXPECT_EQ(short_count, 1u);
+  EXPECT_LT(long_count, 900u) << "it waited for all of the other task";
 }
 
 TEST(WorkerPool, hasNothingToDoForNoPieces) {

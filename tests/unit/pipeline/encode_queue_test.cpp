@@ -26,27 +26,33 @@ AtlasRunPtr runOf(const std::string& name, int64_t deadline_ns, bool is_tracked 
 struct NoWork final : StripWork {
   using StripWork::StripWork;
   void makePiece(uint32_t) override {}
+  void notePiece(int64_t) override {}
   RayCounts counts() const override { return {}; }
   StripPlanes planes(uint32_t) const override { return {}; }
 };
 
 class EncodeQueueTest : public ::testing::Test {
  protected:
-  void push(const AtlasRunPtr& run, uint32_t strip_count, uint32_t piece_count = 0) {
-    queue_.push(std::make_shared<StripBatch>(
-        run, std::make_unique<NoWork>(
-                 StripWorkShape{.strip_count = strip_count, .piece_count = piece_count})));
+  void push(const AtlasRunPtr& run, const StripWorkShape& shape) {
+    queue_.push(std::make_shared<StripBatch>(run, std::make_unique<NoWork>(shape)));
   }
+  void push(const AtlasRunPtr& run, uint32_t strip_count, uint32_t piece_count = 0) {
+    push(run, {.strip_count = strip_count, .piece_count = piece_count, .piece_ns = 1000});
+  }
+  // Says that the task that was popped last is done.
+  void serve(int64_t duration_ns) { queue_.noteServed(*task_, duration_ns); }
   // "soon piece 0", "soon strip 1"
   std::string popName() {
-    std::optional<EncodeTask> task = queue_.pop();
-    if (!task) return "";
-    popped_ = task->batch;
-    return popped_->run->job.picture_key + (task->is_strip ? " strip " : " piece ") +
-           std::to_string(task->index);
+    task_ = queue_.pop();
+    if (!task_) return "";
+    popped_ = task_->batch;
+    return popped_->run->job.picture_key + (task_->is_strip ? " strip " : " piece ") +
+           std::to_string(task_->index);
   }
 
-  EncodeQueue queue_;
+  FairShares shares_;
+  EncodeQueue queue_{shares_};
+  std::optional<EncodeTask> task_;
   StripBatchPtr popped_;
 };
 
@@ -100,22 +106,72 @@ TEST_F(EncodeQueueTest, trackedDisplaysGoFirstButLeaveOthersTheirTurn) {
   push(runOf("quilt", 100), 1, 3);
   push(runOf("eyes", 900, true), 1, 3);
   EXPECT_EQ(popName(), "eyes piece 0");
-  queue_.noteServed(*popped_->run, 3000);
+  serve(3000);
   EXPECT_EQ(popName(), "quilt piece 0") << "a part for every three of eyes";
-  queue_.noteServed(*popped_->run, 1000);
+  serve(1000);
   EXPECT_EQ(popName(), "eyes piece 1");
 }
 
-TEST_F(EncodeQueueTest, anAtlasThatTakesLongLetsOthersGoFirstAndHasHalfOfTheTime) {
-  push(runOf("lens", 100), 1, 3);
+TEST_F(EncodeQueueTest, anAtlasThatTakesLongLetsOthersGoFirst) {
+  push(runOf("lens", 100), 1, 9);
   EXPECT_EQ(popName(), "lens piece 0");
-  popped_->run->at_work.had = kTurn_ns;
+  serve(10 * kInOrder_ns);
   push(runOf("quilt", 200), 1, 3);
+  shares_.enter(claimOf(AtlasJob{.picture_key = "quilt"}));
   EXPECT_EQ(popName(), "quilt piece 0");
-  queue_.noteServed(*popped_->run, 1000);
-  EXPECT_EQ(popName(), "lens piece 1") << "its turn, as long as the quilt's";
-  queue_.noteServed(*popped_->run, 1000);
-  EXPECT_EQ(popName(), "quilt piece 1");
+}
+
+TEST_F(EncodeQueueTest, eachPayerHasItsShare) {
+  const auto payedBy = [](AtlasRunPtr run, const char* address) {
+    run->claim.payers = {Payer::ofHost(address)};
+    return run;
+  };
+  push(payedBy(runOf("huge", 100), "10.0.0.1"), 1, 9);
+  push(payedBy(runOf("small", 900), "10.0.0.2"), 1, 9);
+  EXPECT_EQ(popName(), "huge piece 0");
+  serve(5000);
+  for (int piece = 0; piece < 5; ++piece) {
+    EXPECT_EQ(popName(), "small piece " + std::to_string(piece));
+    serve(1001);
+  }
+  EXPECT_EQ(popName(), "huge piece 1");
+}
+
+TEST_F(EncodeQueueTest, othersWaitForTheFirstPieceOfWorkThatBeginsWithOne) {
+  push(runOf("sweep", 100),
+       {.strip_count = 1, .piece_count = 3, .piece_ns = 1000, .begins_with_one = true});
+  push(runOf("late", 200), 1);
+  EXPECT_EQ(popName(), "sweep piece 0");
+  const StripBatchPtr sweep = popped_;
+  EXPECT_EQ(popName(), "late strip 0");
+  queue_.noteMade(*sweep);
+  EXPECT_EQ(popName(), "sweep piece 1");
+}
+
+TEST_F(EncodeQueueTest, whatIsGivenUpIsDropped) {
+  const AtlasRunPtr run = runOf("lens", 100);
+  push(run, 1, 9);
+  push(runOf("late", 200), 1);
+  EXPECT_EQ(popName(), "lens piece 0");
+  run->giveUp();
+  EXPECT_EQ(popName(), "late strip 0");
+  push(run, 1);
+  queue_.close();
+  EXPECT_EQ(popName(), "");
+}
+
+TEST_F(EncodeQueueTest, planesOfAStripArePackedOneByOne) {
+  const AtlasRunPtr run = runOf("rgbd", 100);
+  run->packs.push_back({.output = 0, .plane = AtlasPlane::kDepth, .rank = 1});
+  push(run, 2);
+  for (int strip = 0; strip < 2; ++strip) {
+    for (size_t pack = 0; pack < 2; ++pack) {
+      EXPECT_EQ(popName(), "rgbd strip " + std::to_string(strip));
+      EXPECT_EQ(task_->pack, pack);
+      EXPECT_GT(task_->predicted_ns, 0);
+      serve(1000);
+    }
+  }
 }
 
 TEST_F(EncodeQueueTest, whatHasBegunIsHandedOutAfterTheQueueIsClosed) {

@@ -52,6 +52,7 @@ struct Served {
 
 Served serve(const std::vector<Head>& heads, int64_t answer_ns) {
   JobQueue queue;
+  const FairShares shares;
   std::vector<int64_t> next_ns, newest_ns(heads.size());
   std::vector<size_t> passed_count(heads.size());
   for (const Head& head : heads) next_ns.push_back(head.phase_ns);
@@ -70,7 +71,7 @@ Served serve(const std::vector<Head>& heads, int64_t answer_ns) {
         queue.push(jobOf(std::to_string(i), {newest_ns[i], heads[i].interval_ns}, newest_ns[i]));
       }
     }
-    if (!queue.hasTracked()) {
+    if (queue.next(shares) == nullptr) {
       now_ns = *std::min_element(next_ns.begin(), next_ns.end());
       continue;
     }

@@ -29,12 +29,17 @@ class JobBoardTest : public testing::Test {
   }
   // "" where none may begin.
   std::string begin(size_t engine, const Claim* first_begun = nullptr, bool has_room = true) {
-    const std::optional<AtlasJob> job = board_.begin(engine, first_begun, has_room);
+    const std::optional<AtlasJob> job =
+        board_.begin(engine, first_begun, [has_room](const Payers&) { return has_room; });
     return job ? job->picture_key : "";
+  }
+  std::optional<AtlasJob> beginFirst() {
+    return board_.begin(kFirst, nullptr, [](const Payers&) { return true; });
   }
 
   ManualClock clock_;
-  JobBoard board_{clock_, 2};
+  FairShares shares_;
+  JobBoard board_{clock_, shares_, 2};
 };
 
 TEST_F(JobBoardTest, isNewsOnceUntilThePictureBegins) {
@@ -64,7 +69,7 @@ TEST_F(JobBoardTest, takesATickOnlyWhileNoAtlasOfItsPictureIsOnItsWay) {
 }
 
 TEST_F(JobBoardTest, beginsWhatIsDueBeforeAllThatHasBegun) {
-  const Claim begun{.deadline_ns = 100, .turn = kTurnRays};
+  const Claim begun{.deadline_ns = 100};
   board_.offer(quilt("late", 100));
   EXPECT_EQ(begin(kFirst, &begun), "");
   board_.offer(quilt("soon", 99));
@@ -72,21 +77,22 @@ TEST_F(JobBoardTest, beginsWhatIsDueBeforeAllThatHasBegun) {
   EXPECT_EQ(begin(kFirst, &begun), "");
 }
 
-TEST_F(JobBoardTest, beginsAnythingBesideAnAtlasThatIsLong) {
-  const Claim begun{.deadline_ns = 100, .turn = kTurnRays, .had = kTurnRays};
+TEST_F(JobBoardTest, beginsAnythingBesideAnAtlasThatHasHadMuchTime) {
+  const Claim begun{.deadline_ns = 100};
+  for (int i = 0; i < 10; ++i) shares_.begin(begun, kInOrder_ns);
   board_.offer(quilt("late", 1000));
   EXPECT_EQ(begin(kFirst, &begun), "late");
 }
 
 TEST_F(JobBoardTest, beginsEyesBesideAnAtlasThatIsDueBeforeThem) {
-  const Claim begun{.deadline_ns = -100, .turn = kTurnRays};
+  const Claim begun{.deadline_ns = -100};
   board_.offer(eyes());
   EXPECT_EQ(begin(kFirst, &begun, false), "") << "those of somebody are being served";
   EXPECT_EQ(begin(kFirst, &begun), "eyes");
 }
 
 TEST_F(JobBoardTest, doesNotBeginEyesBesideEyesThatAreDueBeforeThem) {
-  const Claim begun{.deadline_ns = -100, .is_tracked = true, .turn = kTurnRays};
+  const Claim begun{.deadline_ns = -100, .is_tracked = true};
   board_.offer(eyes());
   EXPECT_EQ(begin(kFirst, &begun), "");
 }
@@ -105,6 +111,30 @@ TEST_F(JobBoardTest, waitsForPosesThatAreAboutToCome) {
   EXPECT_EQ(board_.eyesWaitUntilNs(kFirst), std::nullopt);
 }
 
+TEST_F(JobBoardTest, letsOthersBeginWhileSomebodysEyesWaitForPoses) {
+  AtlasJob job = eyes();
+  job.payers = {Payer::ofHost("10.0.0.1")};
+  board_.offer(job);
+  clock_.advance(7 * kMs_ns);
+  AtlasJob other = quilt("quilt", 1000);
+  other.payers = {Payer::ofHost("10.0.0.2")};
+  board_.offer(other);
+  EXPECT_EQ(begin(kFirst), "quilt");
+  EXPECT_EQ(begin(kFirst), "");
+  EXPECT_TRUE(board_.eyesWaitUntilNs(kFirst));
+}
+
+TEST_F(JobBoardTest, letsEyesOfOnePayerNotPassAnother) {
+  AtlasJob job = eyes();
+  job.payers = {Payer::ofHost("10.0.0.1")};
+  board_.offer(job);
+  shares_.begin(claimOf(job), kInOrder_ns);
+  AtlasJob other = quilt("quilt", 1000);
+  other.payers = {Payer::ofHost("10.0.0.2")};
+  board_.offer(other);
+  EXPECT_EQ(begin(kFirst, nullptr, false), "quilt");
+}
+
 TEST_F(JobBoardTest, waitsNoLongerForPosesThatDoNotCome) {
   board_.offer(eyes());
   clock_.advance(7 * kMs_ns);
@@ -115,7 +145,7 @@ TEST_F(JobBoardTest, waitsNoLongerForPosesThatDoNotCome) {
 
 TEST_F(JobBoardTest, keepsAPictureInTheLaneOfTheEngineItWasHandedTo) {
   board_.offer(quilt("quilt", 10));
-  std::optional<AtlasJob> job = board_.begin(kFirst, nullptr, true);
+  std::optional<AtlasJob> job = beginFirst();
   ASSERT_TRUE(job);
   EXPECT_EQ(begin(kSecond), "");
   board_.offer(quilt("quilt", 20, 2));  // while the first is being planned
@@ -134,11 +164,12 @@ TEST_F(JobBoardTest, keepsAPictureInTheLaneOfTheEngineItWasHandedTo) {
 
 TEST_F(JobBoardTest, beginsAJobThatWasPutBackOnceItIsFinished) {
   board_.offer(quilt("quilt", 10));
-  std::optional<AtlasJob> job = board_.begin(kFirst, nullptr, true);
+  std::optional<AtlasJob> job = beginFirst();
   ASSERT_TRUE(job);
   EXPECT_FALSE(board_.putBack(*std::move(job), kFirst));
   EXPECT_EQ(begin(kFirst), "") << "its kernels are being compiled";
   EXPECT_TRUE(board_.isBusy("quilt"));
+  EXPECT_TRUE(board_.isWaiting("quilt"));
   board_.finish("quilt");
   EXPECT_EQ(begin(kFirst), "quilt");
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/cost_estimate.h"
 #include "schedule/resident_structure.h"
 
 namespace viewloom::job_queue_test {
@@ -16,16 +17,41 @@ ResidentPtr someStructure() {
   return structure;
 }
 
-TEST(JobQueue, givesTheSoonestDeadlineFirst) {
+// Nobody has had any time of these.
+const FairShares kShares;
+
+AtlasJob begin(JobQueue& queue) {
+  return queue.begin(*queue.next(kShares));
+}
+
+bool hasNext(const JobQueue& queue) {
+  return queue.next(kShares) != nullptr;
+}
+
+TEST(JobQueue, givesTheSoonestDeadlineFirstWhereSharesAreEqual) {
   JobQueue queue;
   queue.push({"late", someStructure(), 30, nullptr});
   queue.push({"soon", someStructure(), 10, nullptr});
   queue.push({"middle", someStructure(), 20, nullptr});
-  EXPECT_EQ(queue.soonestDeadlineNs(), 10);
-  EXPECT_EQ(queue.begin().picture_key, "soon");
-  EXPECT_EQ(queue.begin().picture_key, "middle");
-  EXPECT_EQ(queue.begin().picture_key, "late");
-  EXPECT_EQ(queue.soonestDeadlineNs(), std::nullopt);
+  EXPECT_EQ(begin(queue).picture_key, "soon");
+  EXPECT_EQ(begin(queue).picture_key, "middle");
+  EXPECT_EQ(begin(queue).picture_key, "late");
+  EXPECT_FALSE(hasNext(queue));
+}
+
+TEST(JobQueue, givesTheJobOfWhomHadLessFirst) {
+  FairShares shares;
+  JobQueue queue;
+  AtlasJob greedy{"greedy", someStructure(), 10, nullptr};
+  greedy.payers = {Payer::ofHost("10.0.0.1")};
+  AtlasJob modest{"modest", someStructure(), 20, nullptr};
+  modest.payers = {Payer::ofHost("10.0.0.2")};
+  shares.begin(claimOf(greedy), kPiece_ns);
+  queue.push(greedy);
+  queue.push(modest);
+  EXPECT_EQ(queue.next(shares)->display, "modest");
+  EXPECT_EQ(queue.next(shares, {.all = {modest.payers}, .tracked = {}})->display, "greedy");
+  EXPECT_EQ(queue.next(shares, {.all = {}, .tracked = {modest.payers}})->display, "modest");
 }
 
 TEST(JobQueue, replacesAJobOfTheSamePictureThatHasNotBegun) {
@@ -36,8 +62,8 @@ TEST(JobQueue, replacesAJobOfTheSamePictureThatHasNotBegun) {
   const auto replaced = queue.push({"quilt", newer, 20, nullptr});
   ASSERT_TRUE(replaced.has_value());
   EXPECT_EQ(replaced->structure, older);
-  EXPECT_EQ(queue.begin().structure, newer);
-  EXPECT_FALSE(queue.soonestDeadlineNs().has_value());
+  EXPECT_EQ(begin(queue).structure, newer);
+  EXPECT_FALSE(hasNext(queue));
 }
 
 TEST(JobQueue, keepsTheNewerStructureWhicheverComesFirst) {
@@ -48,7 +74,7 @@ TEST(JobQueue, keepsTheNewerStructureWhicheverComesFirst) {
   const auto refused = queue.push({"quilt", older, 5, nullptr});
   ASSERT_TRUE(refused.has_value());
   EXPECT_EQ(refused->structure, older);
-  EXPECT_EQ(queue.begin().structure, newer);
+  EXPECT_EQ(begin(queue).structure, newer);
 }
 
 TEST(JobQueue, keepsTheSoonerDeadlineSoThatFastStreamsDoNotPutAPictureOffForEver) {
@@ -57,7 +83,7 @@ TEST(JobQueue, keepsTheSoonerDeadlineSoThatFastStreamsDoNotPutAPictureOffForEver
   for (int64_t deadline_ns = 60; deadline_ns < 100; deadline_ns += 10) {
     queue.push({"large", someStructure(), deadline_ns, nullptr});
   }
-  EXPECT_EQ(queue.soonestDeadlineNs(), 50);
+  EXPECT_EQ(queue.next(kShares)->deadline_ns, 50);
 }
 
 TEST(JobQueue, mergesJobsForTheSameStructureAndKeepsItsTicket) {
@@ -67,7 +93,7 @@ TEST(JobQueue, mergesJobsForTheSameStructureAndKeepsItsTicket) {
   EXPECT_FALSE(queue.push({"quilt", structure, 10, nullptr}).has_value());
   EXPECT_FALSE(queue.push({"quilt", structure, 20, ticket}).has_value());
   EXPECT_FALSE(queue.push({"quilt", structure, 30, nullptr}).has_value());
-  EXPECT_EQ(queue.begin().ticket, ticket);
+  EXPECT_EQ(begin(queue).ticket, ticket);
 }
 
 TEST(JobQueue, keepsAJobThatIsNotForEyesAloneAsThat) {
@@ -76,13 +102,13 @@ TEST(JobQueue, keepsAJobThatIsNotForEyesAloneAsThat) {
     const ResidentPtr structure = someStructure();
     queue.push({"tracked", structure, 10, nullptr, eyes_come_first});
     queue.push({"tracked", structure, 20, nullptr, !eyes_come_first});
-    EXPECT_FALSE(queue.begin().is_for_eyes);
-    EXPECT_FALSE(queue.soonestDeadlineNs().has_value());
+    EXPECT_FALSE(begin(queue).is_for_eyes);
+    EXPECT_FALSE(hasNext(queue));
     queue.push({"tracked", structure, 10, nullptr, true});
     queue.push({"tracked", structure, 20, nullptr, true});
-    EXPECT_EQ(queue.soonestDeadlineNs(), std::nullopt) << "the picture is being traced";
+    EXPECT_FALSE(hasNext(queue)) << "the picture is being traced";
     queue.finish("tracked");
-    EXPECT_TRUE(queue.begin().is_for_eyes);
+    EXPECT_TRUE(begin(queue).is_for_eyes);
   }
 }
 
@@ -90,38 +116,36 @@ TEST(JobQueue, finishesABegunPictureBeforeANewerOneOfItBegins) {
   JobQueue queue;
   queue.push({"quilt", someStructure(), 10, nullptr});
   queue.push({"stereo", someStructure(), 40, nullptr});
-  ASSERT_EQ(queue.begin().picture_key, "quilt");
+  ASSERT_EQ(begin(queue).picture_key, "quilt");
   const ResidentPtr newer = someStructure();
   EXPECT_FALSE(queue.push({"quilt", newer, 20, nullptr}).has_value()) << "a begun job stays";
-  EXPECT_EQ(queue.begin().picture_key, "stereo") << "the sooner quilt must wait for itself";
-  EXPECT_EQ(queue.soonestDeadlineNs(), std::nullopt);
+  EXPECT_EQ(begin(queue).picture_key, "stereo") << "the sooner quilt must wait for itself";
+  EXPECT_FALSE(hasNext(queue));
   queue.finish("quilt");
-  EXPECT_EQ(queue.begin().structure, newer);
+  EXPECT_EQ(begin(queue).structure, newer);
 }
 
-TEST(JobQueue, tellsWhetherEyesWait) {
+TEST(JobQueue, givesEyesFirstUnlessTheyWaitForTheirOwnLastAtlas) {
   JobQueue queue;
   queue.push({"quilt", someStructure(), 10, nullptr});
-  EXPECT_FALSE(queue.hasTracked());
   const ResidentPtr structure = someStructure();
-  queue.push({"eyes", structure, 5, nullptr, true, true});
-  EXPECT_TRUE(queue.hasTracked());
-  ASSERT_EQ(queue.begin().picture_key, "eyes");
-  queue.push({"eyes", structure, 5, nullptr, true, true});
-  EXPECT_FALSE(queue.hasTracked()) << "they wait for their own last atlas";
+  queue.push({"eyes", structure, 500, nullptr, true, true});
+  ASSERT_EQ(begin(queue).picture_key, "eyes");
+  queue.push({"eyes", structure, 500, nullptr, true, true});
+  EXPECT_EQ(queue.next(kShares)->display, "quilt");
   queue.finish("eyes");
-  EXPECT_TRUE(queue.hasTracked());
+  EXPECT_EQ(queue.next(kShares)->display, "eyes");
 }
 
 TEST(JobQueue, handsBackWhatHasNotBegun) {
   JobQueue queue;
   queue.push({"begun", someStructure(), 10, nullptr});
   queue.push({"waiting", someStructure(), 20, nullptr});
-  queue.begin();
+  begin(queue);
   const auto waiting = queue.clear();
   ASSERT_EQ(waiting.size(), 1u);
   EXPECT_EQ(waiting[0].picture_key, "waiting");
-  EXPECT_FALSE(queue.soonestDeadlineNs().has_value());
+  EXPECT_FALSE(hasNext(queue));
 }
 
 }  // namespace

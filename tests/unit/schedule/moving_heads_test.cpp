@@ -123,7 +123,6 @@ TEST(JobQueueOfMovingHeads, waitsForNobodyWhosePosesAnAtlasOnItsWayHasTaken) {
   queue.push(jobOf("served", kPoses, 2));
   queue.forgetEyes("served");
   queue.finish("served");
-  EXPECT_FALSE(queue.hasTracked());
   AtlasJob with_frame = jobOf("sees", kPoses, 3);
   with_frame.is_for_eyes = false;
   queue.push(with_frame);

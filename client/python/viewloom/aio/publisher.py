@@ -21,6 +21,8 @@ from viewloom.v1.ingest_service_pb2 import (FrameReport, PublishAccepted, Publis
                                             PublishFramesResponse, Wanted)
 from viewloom.v1.ingest_service_pb2_grpc import IngestServiceStub
 
+PACE_STEP_S = 0.1  # after which a new rate counts
+
 
 class Publisher:
     """A stream, within `async with`. See Server.publish."""
@@ -97,7 +99,7 @@ class Publisher:
                    exposure_ev: float = 0.0, tone_map: str = "clip") -> asyncio.Future[FrameReport]:
         """As the blocking Publisher.send: `report = await (await publisher.send(source))`."""
         async with self._send_lock:
-            await until(self._changed, self._ledger.may_send)
+            await self._wait_for_turn()
             messages = frame_messages(
                 self._ledger.next_number(), sources, exposure_ev=exposure_ev, tone_map=tone_map,
                 capture_time_ns=time.time_ns() if capture_time_ns is None else capture_time_ns,
@@ -107,6 +109,17 @@ class Publisher:
             assert self._line is not None  # may_send() found it open
             await self._line.write(*messages)  # a call that breaks: the next one takes it over
             return promise
+
+    async def _wait_for_turn(self) -> None:
+        """Until there is room for a frame, and the server would use it."""
+        while True:
+            await until(self._changed, self._ledger.may_send)
+            now_s = time.monotonic()
+            left_s = self._ledger.pace.left_s(now_s)
+            if left_s <= 0:
+                self._ledger.pace.note(now_s)
+                return
+            await asyncio.sleep(min(left_s, PACE_STEP_S))
 
     async def close(self, timeout_s: float = CLOSE_TIMEOUT_S) -> None:
         """Waits for the reports of what was sent, and ends the stream.

@@ -64,6 +64,16 @@ void addLight(uint32_t texel, float count, uint32_t p, BlockLight& light) {
   light.count[p] += count;
 }
 
+BandRows firstPiece(const AtlasLayout& layout, BandRows rows, uint64_t ray_count_max) {
+  const uint32_t end = rows.first_row + rows.row_count;
+  const uint64_t row_rays = uint64_t{layout.size_px.width} * layout.lens->pointCount();
+  const uint64_t ray_count = std::min<uint64_t>(kGatheredRays, ray_count_max);
+  const uint64_t enough = std::max<uint64_t>(ray_count / row_rays, 1);
+  uint32_t row = rows.first_row;
+  while (row < end && row - rows.first_row < enough) row = nextBlockRow(layout, row);
+  return {rows.first_row, std::min(row, end) - rows.first_row};
+}
+
 }  // namespace
 
 bool gathersOnHost(bool is_in_reach, const TraceJob& job) {
@@ -73,13 +83,15 @@ bool gathersOnHost(bool is_in_reach, const TraceJob& job) {
          });
 }
 
-BandRows firstGathered(const AtlasLayout& layout, BandRows rows) {
-  const uint32_t end = rows.first_row + rows.row_count;
-  const uint64_t row_rays = uint64_t{layout.size_px.width} * layout.lens->pointCount();
-  const uint64_t enough = std::max<uint64_t>(kGatheredRays / row_rays, 1);
-  uint32_t row = rows.first_row;
-  while (row < end && row - rows.first_row < enough) row = nextBlockRow(layout, row);
-  return {rows.first_row, std::min(row, end) - rows.first_row};
+std::vector<BandRows> gatheredPieces(const AtlasLayout& layout, BandRows rows,
+                                     uint64_t ray_count_max) {
+  std::vector<BandRows> pieces;
+  while (rows.row_count > 0) {
+    pieces.push_back(firstPiece(layout, rows, ray_count_max));
+    rows.first_row += pieces.back().row_count;
+    rows.row_count -= pieces.back().row_count;
+  }
+  return pieces;
 }
 
 GatheredBand bandOf(TraceSlot& slot, const AtlasLayout& layout, BandRows rows, uint32_t first_row) {

@@ -19,9 +19,10 @@ namespace viewloom {
 // has a second stage whose rays are never walked, and all views look where the source looks.
 bool gathersOnHost(bool is_in_reach, const TraceJob& job);
 
-// The first of these rows of an atlas, to be gathered at once: whole blocks where that can be, and
-// so few that nobody waits long for them.
-BandRows firstGathered(const AtlasLayout& layout, BandRows rows);
+// These rows of an atlas in pieces, each to be gathered at once. A piece has whole blocks where
+// that can be, and about kGatheredRays or `ray_count_max` rays at most, whichever is less.
+std::vector<BandRows> gatheredPieces(const AtlasLayout& layout, BandRows rows,
+                                     uint64_t ray_count_max);
 
 // Rows of an atlas.
 struct GatheredBand {

@@ -104,11 +104,16 @@ void FrameStructure::upload(const Frame& frame) {
 }
 
 void FrameStructure::recordBuild(Commands commands, const StructureBuilder& builder) const {
+  CutRecording uncut(commands);
+  recordBuild(uncut, builder);
+}
+
+void FrameStructure::recordBuild(CutRecording& cuts, const StructureBuilder& builder) const {
   for (const BuiltSource& source : sources_) {
     if (source.parts.size() == 1) {
-      builder.record(commands, *source.parts.front(), nullptr);
+      builder.record(cuts, *source.parts.front());
     } else {
-      builder.recordCube(commands, source.parts, source.face_list);
+      builder.recordCube(cuts, source.parts, source.face_list);
     }
   }
 }

@@ -28,6 +28,8 @@ class FrameStructure {
   void upload(const Frame& frame);
   // From uploaded planes to structures that can be traced.
   void recordBuild(Commands commands, const StructureBuilder& builder) const;
+  // The same, in several submissions if wanted.
+  void recordBuild(CutRecording& cuts, const StructureBuilder& builder) const;
 
   // Slots of the parts of the frame.
   std::span<const StructureSlot* const> parts() const { return parts_; }

@@ -13,7 +13,7 @@ MeanColor::Planes& MeanColor::planesFor(const ColorReach& reach) {
     return *planes_.front();
   }
   const auto free = std::find_if(planes_.begin(), planes_.end(),
-                                 [](const auto& planes) { return !planes->is_made; });
+                                 [](const auto& planes) { return planes->made_row_count == 0; });
   if (free == planes_.end() && planes_.size() < kReachesMax) {
     planes_.insert(planes_.begin(),
                    std::make_unique<Planes>(
@@ -23,12 +23,12 @@ MeanColor::Planes& MeanColor::planesFor(const ColorReach& reach) {
   const auto taken = free == planes_.end() ? planes_.end() - 1 : free;
   std::rotate(planes_.begin(), taken, taken + 1);
   planes_.front()->reach = reach;
-  planes_.front()->is_made = false;
+  planes_.front()->made_row_count = 0;
   return *planes_.front();
 }
 
 void MeanColor::forget() {
-  for (const auto& planes : planes_) planes->is_made = false;
+  for (const auto& planes : planes_) planes->made_row_count = 0;
 }
 
 }  // namespace viewloom

@@ -23,7 +23,7 @@ class MeanColor {
 
   struct Planes {
     ColorReach reach;
-    bool is_made = false;  // of the colour that the slot holds
+    uint32_t made_row_count = 0;  // from the top, of the colour that the slot holds
     LayeredBuffer means;
   };
   // Allocates up to kReachesMax; then those used longest ago are to be made anew. Whoever does so

@@ -6,35 +6,13 @@
 
 #include "gpu/commands.h"
 #include "shared/cube_abi.h"
+#include "structure/timed_stage.h"
 
 namespace viewloom {
 namespace {
 
 uint32_t groups(uint32_t count, uint32_t group_size) {
   return (count + group_size - 1) / group_size;
-}
-
-// Runs one stage between its time stamps.
-class Timed {
- public:
-  Timed(Commands commands, GpuTimer* timer, const char* name) : commands_(commands), timer_(timer) {
-    if (timer_) timer_->recordBegin(commands_, name);
-  }
-  ~Timed() {
-    if (timer_) timer_->recordEnd(commands_);
-  }
-  Timed(const Timed&) = delete;
-  Timed& operator=(const Timed&) = delete;
-
- private:
-  Commands commands_;
-  GpuTimer* timer_;
-};
-
-template <typename Record>
-void recordStage(Commands commands, GpuTimer* timer, const char* name, Record&& record) {
-  const Timed timed(commands, timer, name);
-  record();
 }
 
 // All counters 0, and a minimum that anything is below.
@@ -57,18 +35,19 @@ std::vector<Descriptor> describeBindings(const StructureSlot& slot) {
 }
 
 // How layers mirror; those that do not, mirror nothing.
-void recordSurface(Commands commands, const StructureSlot& slot) {
+void recordSurface(CutRecording& recording, const StructureSlot& slot) {
   const LayeredBuffer* const surface = slot.surface();
   if (surface == nullptr) return;
   for (uint32_t i = 0; i < slot.shape().layerCount(); ++i) {
     const StagedPlane& staged = slot.staged()[i].surface;
     if (staged.size_bytes == 0) {
-      commands.fill(surface->buffer(i), surface->offsetBytes(i), surface->layerBytes(), 0);
+      recording.commands().fill(surface->buffer(i), surface->offsetBytes(i), surface->layerBytes(),
+                                0);
     } else {
-      commands.copy(slot.staging(), surface->buffer(i),
-                    {.from_offset = staged.offset,
-                     .to_offset = surface->offsetBytes(i),
-                     .size_bytes = staged.size_bytes});
+      recordCopy(recording, slot.staging(), surface->buffer(i),
+                 {.from_offset = staged.offset,
+                  .to_offset = surface->offsetBytes(i),
+                  .size_bytes = staged.size_bytes});
     }
   }
 }
@@ -95,9 +74,9 @@ PrepareVariant preparationOf(const StructureSlot& slot) {
 // One build, stage after stage.
 class Recording {
  public:
-  Recording(Commands commands, const StructureSlot& slot, const StructurePasses& passes,
+  Recording(CutRecording& recording, const StructureSlot& slot, const StructurePasses& passes,
             const ComputePass& preparation)
-      : commands_(commands),
+      : recording_(recording),
         slot_(slot),
         passes_(passes),
         preparation_(preparation),
@@ -111,24 +90,39 @@ class Recording {
   void buildLevels();
 
  private:
+  // Groups of a pass. A row of them takes so many rows of px.
+  struct Groups {
+    uint32_t x = 1;
+    uint32_t y = 1;
+    uint32_t z = 1;
+    uint32_t row_px = 1;
+  };
   // Dispatches, with what the slot binds, and lets later passes see the result.
-  void dispatch(const ComputePass& pass, const abi::BuildPush& push, uint32_t groups_x,
-                uint32_t groups_y, uint32_t groups_z);
+  void dispatch(const ComputePass& pass, abi::BuildPush push, const Groups& groups);
   // An invocation a node; kernels that take whole columns dispatch one layer.
   void overNodes(const ComputePass& pass, uint32_t level, uint32_t layer_count);
 
-  Commands commands_;
+  CutRecording& recording_;
   const StructureSlot& slot_;
   const StructurePasses& passes_;
   const ComputePass& preparation_;
   std::vector<Descriptor> bindings_;
 };
 
-void Recording::dispatch(const ComputePass& pass, const abi::BuildPush& push, uint32_t groups_x,
-                         uint32_t groups_y, uint32_t groups_z) {
-  pass.recordDescriptors(commands_, bindings_);
-  pass.record(commands_, push, groups_x, groups_y, groups_z);
-  recordComputeBarrier(commands_);
+void Recording::dispatch(const ComputePass& pass, abi::BuildPush push, const Groups& groups) {
+  const FrameShape& shape = slot_.shape();
+  const uint64_t row_px_count = uint64_t{shape.depth_px.width} * groups.row_px * shape.layerCount();
+  const auto rows_max =
+      uint32_t(std::clamp<uint64_t>(recording_.piecePxCount() / row_px_count, 1, groups.y));
+  while (push.first_group_row < groups.y) {
+    const uint32_t rows = std::min(rows_max, groups.y - push.first_group_row);
+    const Commands commands = recording_.commands();
+    pass.recordDescriptors(commands, bindings_);
+    pass.record(commands, push, groups.x, rows, groups.z);
+    recordComputeBarrier(commands);
+    recording_.note(rows * row_px_count);
+    push.first_group_row += rows;
+  }
 }
 
 void Recording::overNodes(const ComputePass& pass, uint32_t level, uint32_t layer_count) {
@@ -136,29 +130,36 @@ void Recording::overNodes(const ComputePass& pass, uint32_t level, uint32_t laye
   const uint32_t node_px = 1u << level;
   abi::BuildPush push = slot_.buildPush();
   push.level = level;
-  dispatch(pass, push, groups(groups(size.width, node_px), abi::kNodeGroupSize),
-           groups(size.height, node_px), layer_count);
+  dispatch(pass, push,
+           {.x = groups(groups(size.width, node_px), abi::kNodeGroupSize),
+            .y = groups(size.height, node_px),
+            .z = layer_count,
+            .row_px = node_px});
 }
 
 // Also the guard around the image.
 void Recording::prepare() {
   const SizePx size = slot_.shape().depth_px;
   const uint32_t blocks_x = abi::invZPitch(size.width) / abi::kBlockPx;
-  dispatch(preparation_, slot_.buildPush(), groups(blocks_x, abi::kNodeGroupSize),
-           groups(size.height, abi::kBlockPx) + 2, 1);
+  dispatch(preparation_, slot_.buildPush(),
+           {.x = groups(blocks_x, abi::kNodeGroupSize),
+            .y = groups(size.height, abi::kBlockPx) + 2,
+            .row_px = abi::kBlockPx});
 }
 
 void Recording::measure() {
   const SizePx size = slot_.shape().depth_px;
   constexpr uint32_t kStripPx = abi::kMeasuredBlocks * abi::kBlockPx;
   const auto overStrips = [&](const ComputePass& pass) {
-    dispatch(pass, slot_.buildPush(), groups(groups(size.width, kStripPx), abi::kNodeGroupSize),
-             groups(size.height, abi::kBlockPx), 1);
+    dispatch(pass, slot_.buildPush(),
+             {.x = groups(groups(size.width, kStripPx), abi::kNodeGroupSize),
+              .y = groups(size.height, abi::kBlockPx),
+              .row_px = abi::kBlockPx});
   };
   overStrips(passes_.measure_depth);
-  dispatch(passes_.settle_range, slot_.buildPush(), 1, 1, 1);
+  dispatch(passes_.settle_range, slot_.buildPush(), {});
   overStrips(passes_.measure_range);
-  dispatch(passes_.settle_tolerance, slot_.buildPush(), 1, 1, 1);
+  dispatch(passes_.settle_tolerance, slot_.buildPush(), {});
 }
 
 // The device has settled whether there is anything to do, and for which passes.
@@ -166,12 +167,14 @@ void Recording::smooth() {
   abi::BuildPush push = slot_.buildPush();
   for (uint32_t pass = 0; pass < abi::kSmoothingPassCount; ++pass) {
     push.level = pass;
-    passes_.smooth_columns.recordDescriptors(commands_, bindings_);
-    passes_.smooth_columns.recordIndirect(commands_, push, slot_.measured(),
+    const Commands commands = recording_.commands();
+    passes_.smooth_columns.recordDescriptors(commands, bindings_);
+    passes_.smooth_columns.recordIndirect(commands, push, slot_.measured(),
                                           pass < abi::kFirstShortPass
                                               ? offsetof(abi::MeasuredHead, long_groups)
                                               : offsetof(abi::MeasuredHead, short_groups));
-    recordComputeBarrier(commands_);
+    recordComputeBarrier(commands);
+    recording_.note(slot_.shape().depth_px.area() * slot_.shape().layerCount());
   }
 }
 
@@ -191,28 +194,29 @@ StructureBuilder::StructureBuilder(const Device& device)
       preparations_(device, makePrepareColumns),
       apron_passes_(device, makeApronPasses) {}
 
-void StructureBuilder::recordColumns(Commands commands, const StructureSlot& slot,
+void StructureBuilder::recordColumns(CutRecording& cuts, const StructureSlot& slot,
                                      GpuTimer* timer) const {
-  Recording recording(commands, slot, passes_.get(variantOf(slot)),
+  Recording recording(cuts, slot, passes_.get(variantOf(slot)),
                       preparations_.get(preparationOf(slot)));
-  recordStage(commands, timer, "color", [&] {
-    recordClear(commands, slot.measured());
-    recordColor(commands, slot);
-    recordSurface(commands, slot);
-    recordTransferToCompute(commands);
+  recordStage(cuts, timer, "color", [&] {
+    recordClear(cuts.commands(), slot.measured());
+    recordColor(cuts, slot);
+    recordSurface(cuts, slot);
+    recordTransferToCompute(cuts.commands());
   });
-  recordStage(commands, timer, "columns", [&] { recording.prepare(); });
-  recordStage(commands, timer, "measure", [&] { recording.measure(); });
-  recordStage(commands, timer, "smooth", [&] { recording.smooth(); });
+  recordStage(cuts, timer, "columns", [&] { recording.prepare(); });
+  recordStage(cuts, timer, "measure", [&] { recording.measure(); });
+  recordStage(cuts, timer, "smooth", [&] { recording.smooth(); });
 }
 
-void StructureBuilder::recordSurfaces(Commands commands, const StructureSlot& slot,
+void StructureBuilder::recordSurfaces(CutRecording& cuts, const StructureSlot& slot,
                                       GpuTimer* timer) const {
-  Recording recording(commands, slot, passes_.get(variantOf(slot)),
+  Recording recording(cuts, slot, passes_.get(variantOf(slot)),
                       preparations_.get(preparationOf(slot)));
-  recordStage(commands, timer, "facets", [&] { recording.buildFacets(); });
-  recordStage(commands, timer, "blocks", [&] { recording.buildBlocks(); });
-  recordStage(commands, timer, "levels", [&] { recording.buildLevels(); });
+  recordStage(cuts, timer, "facets", [&] { recording.buildFacets(); });
+  recordStage(cuts, timer, "blocks", [&] { recording.buildBlocks(); });
+  recordStage(cuts, timer, "levels", [&] { recording.buildLevels(); });
+  const Commands commands = cuts.commands();
   recordComputeToTransfer(commands);
   commands.copy(slot.measured(), slot.measuredReadback(),
                 {.size_bytes = slot.measuredReadback().sizeBytes()});
@@ -220,11 +224,17 @@ void StructureBuilder::recordSurfaces(Commands commands, const StructureSlot& sl
 }
 
 void StructureBuilder::record(Commands commands, const StructureSlot& slot, GpuTimer* timer) const {
-  recordColumns(commands, slot, timer);
-  recordSurfaces(commands, slot, timer);
+  CutRecording uncut(commands);
+  recordColumns(uncut, slot, timer);
+  recordSurfaces(uncut, slot, timer);
 }
 
-void StructureBuilder::recordCube(Commands commands, std::span<const StructureSlot* const> faces,
+void StructureBuilder::record(CutRecording& cuts, const StructureSlot& slot) const {
+  recordColumns(cuts, slot, nullptr);
+  recordSurfaces(cuts, slot, nullptr);
+}
+
+void StructureBuilder::recordCube(CutRecording& cuts, std::span<const StructureSlot* const> faces,
                                   const Buffer& face_list) const {
   const ApronPasses& passes = apron_passes_.get({});
   const auto recordAprons = [&](const ComputePass& pass) {
@@ -234,34 +244,36 @@ void StructureBuilder::recordCube(Commands commands, std::span<const StructureSl
       const abi::ApronPush push{.cube = addressWords(face_list.address()),
                                 .face = face,
                                 .color_format = colorFormat(slot.shape().color_storage)};
-      pass.recordDescriptors(commands, describeBindings(slot));
+      pass.recordDescriptors(cuts.commands(), describeBindings(slot));
       pass.record(
-          commands, push,
+          cuts.commands(), push,
           groups(4 * abi::kCubeApron_px * (side_px + abi::kCubeApron_px), abi::kNodeGroupSize));
     }
-    recordComputeBarrier(commands);
+    recordComputeBarrier(cuts.commands());
   };
-  for (const StructureSlot* face : faces) recordColumns(commands, *face, nullptr);
+  for (const StructureSlot* face : faces) recordColumns(cuts, *face, nullptr);
   recordAprons(passes.fill_apron);
-  for (const StructureSlot* face : faces) recordSurfaces(commands, *face, nullptr);
+  for (const StructureSlot* face : faces) recordSurfaces(cuts, *face, nullptr);
   recordAprons(passes.color_apron);
 }
 
-void StructureBuilder::recordColor(Commands commands, const StructureSlot& slot) const {
+void StructureBuilder::recordColor(CutRecording& cuts, const StructureSlot& slot) const {
   if (slot.colorIsInPlace()) return;
   for (uint32_t i = 0; i < slot.shape().layerCount(); ++i) {
     if (slot.shape().color_storage == ColorStorage::kRgba8Srgb) {
-      commands.copy(slot.staging(), slot.color().buffer(i),
-                    {.from_offset = slot.staged()[i].color.offset,
-                     .to_offset = slot.color().offsetBytes(i),
-                     .size_bytes = slot.staged()[i].color.size_bytes});
+      recordCopy(cuts, slot.staging(), slot.color().buffer(i),
+                 {.from_offset = slot.staged()[i].color.offset,
+                  .to_offset = slot.color().offsetBytes(i),
+                  .size_bytes = slot.staged()[i].color.size_bytes});
       continue;
     }
     // Two dimensions of groups: one alone would pass the least limit of 65535 from 2048 x 2048 px
     // on.
     const uint32_t group_count = groups(slot.conversions()[i].texel_count, abi::kNodeGroupSize);
     const uint32_t groups_x = std::min(group_count, 1024u);
-    convert_color_.record(commands, slot.conversions()[i], groups_x, groups(group_count, groups_x));
+    convert_color_.record(cuts.commands(), slot.conversions()[i], groups_x,
+                          groups(group_count, groups_x));
+    cuts.note(slot.conversions()[i].texel_count);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "gpu/commands.h"
 #include "gpu/gpu_timer.h"
 #include "gpu/pass_map.h"
+#include "structure/cut_recording.h"
 #include "structure/structure_passes.h"
 #include "structure/structure_slot.h"
 
@@ -25,17 +26,19 @@ class StructureBuilder {
   // recorded afterwards in the same submission see it, too. `timer` was reset in this recording;
   // nullptr = untimed.
   void record(Commands commands, const StructureSlot& slot, GpuTimer* timer) const;
+  // The same, in several submissions if wanted.
+  void record(CutRecording& cuts, const StructureSlot& slot) const;
   // The same for the six faces of a cube map, whose aprons come from each other. `face_list`:
   // abi::CubeFaceList of them.
-  void recordCube(Commands commands, std::span<const StructureSlot* const> faces,
+  void recordCube(CutRecording& cuts, std::span<const StructureSlot* const> faces,
                   const Buffer& face_list) const;
 
  private:
   // From uploaded planes to columns as they are kept.
-  void recordColumns(Commands commands, const StructureSlot& slot, GpuTimer* timer) const;
+  void recordColumns(CutRecording& cuts, const StructureSlot& slot, GpuTimer* timer) const;
   // From those to what can be traced, and its stats in host memory.
-  void recordSurfaces(Commands commands, const StructureSlot& slot, GpuTimer* timer) const;
-  void recordColor(Commands commands, const StructureSlot& slot) const;
+  void recordSurfaces(CutRecording& cuts, const StructureSlot& slot, GpuTimer* timer) const;
+  void recordColor(CutRecording& cuts, const StructureSlot& slot) const;
 
   ComputePass convert_color_;
   mutable PassMap<StructureVariant, StructurePasses> passes_;

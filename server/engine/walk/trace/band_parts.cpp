@@ -2,56 +2,87 @@
 #include "trace/band_parts.h"
 
 #include <algorithm>
+#include <utility>
+
+#include "trace/met_blocks.h"
 
 namespace viewloom {
-namespace {
-
-uint32_t perPart(uint64_t each_rays, uint32_t count_max) {
-  return uint32_t(std::clamp<uint64_t>(kPartRays / std::max<uint64_t>(each_rays, 1), 1, count_max));
-}
-
-}  // namespace
 
 BandParts::BandParts(const TraceJob& job, BandRows rows)
-    : sample_rays_(uint64_t{job.layout->size_px.width} * rows.row_count * job.walk_count),
+    : walked_row_rays_(uint64_t{job.layout->size_px.width} * job.walk_count),
       sample_count_(job.gathers_on_host ? 1 : job.sample_count),
-      row_count_(rows.row_count) {
-  samples_per_part_ = job.reflects() ? 1 : perPart(sample_rays_, sample_count_);
-  walk_count_ = (sample_count_ + samples_per_part_ - 1) / samples_per_part_;
+      row_count_(rows.row_count),
+      reflects_(job.reflects()),
+      gathers_(!reflects_ && job.mayGather()) {
   const uint64_t width_px = job.layout->size_px.width;
-  if (job.reflects()) {
+  if (reflects_) {
     row_rays_ =
         width_px * job.walk_count * job.reflection->bounce_count * job.reflection->sample_count;
-    reflect_count_ = rowPartCount();
-  } else if (job.mayGather()) {
+  } else if (gathers_) {
     row_rays_ = width_px * job.layout->lens->gathered_count / kGatheredPerWalked;
-    gather_count_ = rowPartCount();
   }
 }
 
-uint32_t BandParts::rowPartCount() {
-  rows_per_part_ = perPart(row_rays_, row_count_);
-  return (row_count_ + rows_per_part_ - 1) / rows_per_part_;
-}
-
-BandPart BandParts::at(uint32_t index) const {
-  const uint32_t of_sample = 1 + reflect_count_;
-  const bool is_gathered = index >= walk_count_ * of_sample;
-  if (!is_gathered && index % of_sample == 0) {
-    BandPart part{.first_sample = index / of_sample * samples_per_part_};
-    part.end_sample = std::min(part.first_sample + samples_per_part_, sample_count_);
-    part.ray_count = sample_rays_ * (part.end_sample - part.first_sample);
-    return part;
-  }
-  const uint32_t row_part = is_gathered ? index - walk_count_ * of_sample : index % of_sample - 1;
-  const uint32_t sample = is_gathered ? 0 : index / of_sample;
-  BandPart part{.first_sample = sample,
-                .end_sample = sample,
-                .first_row = row_part * rows_per_part_,
-                .reflects = !is_gathered};
-  part.end_row = std::min(part.first_row + rows_per_part_, row_count_);
-  part.ray_count = row_rays_ * (part.end_row - part.first_row);
+BandPart BandParts::take(uint64_t ray_count_max) {
+  const bool takes_samples = kind_ == PartKind::kWalk && row_ == 0 && !reflects_;
+  const uint64_t sample_rays = rowRays() * row_count_;
+  BandPart part = takes_samples && (ray_count_max >= sample_rays || isWhole(sample_))
+                      ? takeSamples(ray_count_max)
+                      : takeRows(ray_count_max);
+  part.kind = kind_;
+  part.is_first = std::exchange(is_first_, false);
+  part.ray_count = rowRays() * (part.end_row - part.first_row);
+  if (part.walks()) part.ray_count *= part.end_sample - part.first_sample;
+  goOnFrom(part);
+  part.is_last = is_over_;
   return part;
+}
+
+// Whether blocks of px are left out of it.
+bool BandParts::isWhole(uint32_t sample) const {
+  return gathers_ && metRound(sample, sample_count_).first > 0;
+}
+
+uint64_t BandParts::rowRays() const {
+  return std::max<uint64_t>(kind_ == PartKind::kWalk ? walked_row_rays_ : row_rays_, 1);
+}
+
+BandPart BandParts::takeSamples(uint64_t ray_count_max) {
+  const uint64_t count = std::max<uint64_t>(ray_count_max / (rowRays() * row_count_), 1);
+  return {.first_sample = sample_,
+          .end_sample = uint32_t(std::min<uint64_t>(sample_ + count, sample_count_)),
+          .end_row = row_count_};
+}
+
+BandPart BandParts::takeRows(uint64_t ray_count_max) {
+  const uint64_t count = std::max<uint64_t>(ray_count_max / rowRays(), 1);
+  return {.first_sample = sample_,
+          .end_sample = kind_ == PartKind::kWalk ? sample_ + 1 : sample_,
+          .first_row = row_,
+          .end_row = uint32_t(std::min<uint64_t>(row_ + count, row_count_))};
+}
+
+void BandParts::goOnFrom(const BandPart& part) {
+  row_ = part.end_row;
+  if (row_ < row_count_) return;
+  row_ = 0;
+  if (kind_ == PartKind::kWalk && reflects_) {
+    kind_ = PartKind::kReflect;
+    return;
+  }
+  if (kind_ == PartKind::kReflect) kind_ = PartKind::kWalk;
+  if (kind_ == PartKind::kGather) {
+    is_over_ = true;
+    return;
+  }
+  sample_ = std::max(part.end_sample, sample_ + (reflects_ ? 1 : 0));
+  if (sample_ < sample_count_) return;
+  if (gathers_) {
+    kind_ = PartKind::kGather;
+    sample_ = 0;
+  } else {
+    is_over_ = true;
+  }
 }
 
 }  // namespace viewloom

@@ -9,46 +9,62 @@
 
 namespace viewloom {
 
-// A part walks no more rays than this, unless a single ray of each px are more, or those that one
-// row reflects.
+// A part has no more rays than this, unless those of a single row are more.
 inline constexpr uint64_t kPartRays = uint64_t{1} << 21;
 // Rays of the second stage of a lens that are counted as one that is walked: fewer than it takes.
 inline constexpr uint64_t kGatheredPerWalked = 4;
 
-// Samples [first, end) are walked, or, if there are none, something is done with rows [first_row,
-// end_row) of the band: what the px of that sample mirror is found, or the second stage of a lens.
+// Kinds of parts: rays of samples are walked; what the px of a sample mirror is found; the second
+// stage of a lens.
+enum class PartKind : uint8_t { kWalk, kReflect, kGather };
+
+// Rows [first_row, end_row) of a band. Samples [first_sample, end_sample) are walked; where several
+// are, in all rows. Of the other kinds, first_sample is the one whose px mirror.
 struct BandPart {
+  PartKind kind = PartKind::kWalk;
   uint32_t first_sample = 0;
   uint32_t end_sample = 0;
   uint32_t first_row = 0;
   uint32_t end_row = 0;
-  bool reflects = false;
   // Gathered ones as so many walked, reflected ones as if all px were rough.
   uint64_t ray_count = 0;
+  bool is_first = false;  // of the band
+  bool is_last = false;
 
-  bool walks() const { return first_sample < end_sample; }
+  bool walks() const { return kind == PartKind::kWalk; }
 };
 
 // Walked samples come first. Where things are mirrored, each sample is followed by what it mirrors.
+// Thread-safety: none.
 class BandParts {
  public:
   BandParts(const TraceJob& job, BandRows rows);
 
-  uint32_t count() const { return walk_count_ * (1 + reflect_count_) + gather_count_; }
-  BandPart at(uint32_t index) const;
+  bool isOver() const { return is_over_; }
+  // Kind of the next part.
+  PartKind kind() const { return kind_; }
+  // The next part, with no more rays than this, unless those of a single row are more, or of a
+  // sample of which some px have no rays any more: those are listed for the whole band.
+  BandPart take(uint64_t ray_count_max = kPartRays);
 
  private:
-  uint32_t rowPartCount();
+  BandPart takeSamples(uint64_t ray_count_max);
+  BandPart takeRows(uint64_t ray_count_max);
+  bool isWhole(uint32_t sample) const;
+  uint64_t rowRays() const;
+  void goOnFrom(const BandPart& part);
 
-  uint64_t sample_rays_ = 0;  // of all px
-  uint64_t row_rays_ = 0;     // of a row's parts
+  uint64_t walked_row_rays_ = 0;  // of a sample
+  uint64_t row_rays_ = 0;         // of the other kinds
   uint32_t sample_count_ = 0;
   uint32_t row_count_ = 0;
-  uint32_t samples_per_part_ = 1;
-  uint32_t rows_per_part_ = 1;
-  uint32_t walk_count_ = 0;
-  uint32_t gather_count_ = 0;
-  uint32_t reflect_count_ = 0;  // of each sample
+  bool reflects_ = false;
+  bool gathers_ = false;
+  PartKind kind_ = PartKind::kWalk;
+  uint32_t sample_ = 0;  // where the next part begins
+  uint32_t row_ = 0;
+  bool is_first_ = true;
+  bool is_over_ = false;
 };
 
 }  // namespace viewloom

@@ -11,6 +11,12 @@
 
 namespace viewloom {
 
+// Rows [first, end) of a band.
+struct RowSpan {
+  uint32_t first = 0;
+  uint32_t end = 0;
+};
+
 // One ray of each px.
 struct BandRays {
   uint32_t sample = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace/mean_color_pass.h"
 
+#include <algorithm>
+
 #include "gpu/commands.h"
 #include "shaders/average_color.h"
 #include "shared/kernel_constants.h"
@@ -77,31 +79,60 @@ void MeanColorPass::addMissing(const StructureSlot& structure, const ColorReach&
   }
 }
 
+MeanColorPass::Averages MeanColorPass::averagesOf(const StructureSlot& structure,
+                                                  const ColorReach& reach) {
+  const auto [y, x] = axesOf(structure, reach);
+  return {Average{y, passes_.get(variantOf(structure, y))},
+          Average{x, passes_.get(variantOf(structure, x))}};
+}
+
 MeanColorPass::Color MeanColorPass::record(Commands commands, const StructureSlot& structure,
                                            const ColorReach& reach) {
   const uint32_t format = formatOf(structure, reach);
   if (!isAveraged(structure, reach)) return {structure.color(), format};
-  const auto [y, x] = axesOf(structure, reach);
-  const ComputePass& along_y_pass = passes_.get(variantOf(structure, y));  // not under the lock
-  const ComputePass& along_x_pass = passes_.get(variantOf(structure, x));
+  const Averages averages = averagesOf(structure, reach);  // not under the lock: may compile
   std::lock_guard lock(mutex_);
-  MeanColor& mean_color = structure.meanColor();
-  MeanColor::Planes& planes = mean_color.planesFor(reach);
-  if (planes.is_made) return {planes.means, format};
-  const LayeredBuffer& along_y = structure.meansAlongY();
-  // Others may have been made by way of the same memory before.
-  recordComputeBarrier(commands);
-  recordAlong(commands, structure, along_y_pass, y, structure.color(), along_y);
-  recordComputeBarrier(commands);
-  recordAlong(commands, structure, along_x_pass, x, along_y, planes.means);
-  recordComputeBarrier(commands);
-  planes.is_made = true;
+  MeanColor::Planes& planes = structure.meanColor().planesFor(reach);
+  recordMeans(commands, structure, averages, structure.shape().depth_px.height, planes);
   return {planes.means, format};
 }
 
+uint64_t MeanColorPass::recordRows(Commands commands, const StructureSlot& structure,
+                                   const ColorReach& reach, uint64_t texel_count_max) {
+  if (!isAveraged(structure, reach)) return 0;
+  const Averages averages = averagesOf(structure, reach);
+  std::lock_guard lock(mutex_);
+  MeanColor::Planes& planes = structure.meanColor().planesFor(reach);
+  const uint64_t row_texels =
+      uint64_t{structure.shape().depth_px.width} * structure.shape().layerCount();
+  const uint32_t before = planes.made_row_count;
+  recordMeans(commands, structure, averages, uint32_t(texel_count_max / row_texels), planes);
+  return (planes.made_row_count - before) * row_texels;
+}
+
+// All rows that are left, or whole strips of rows: one strip at least.
+void MeanColorPass::recordMeans(Commands commands, const StructureSlot& structure,
+                                const Averages& averages, uint32_t row_count,
+                                MeanColor::Planes& planes) {
+  const uint32_t strip_px = stripPx();
+  const uint32_t left = structure.shape().depth_px.height - planes.made_row_count;
+  if (left == 0) return;
+  const uint32_t whole = std::max(row_count / strip_px, 1U) * strip_px;
+  const Rows rows{planes.made_row_count, row_count < left ? std::min(whole, left) : left};
+  const LayeredBuffer& along_y = structure.meansAlongY();
+  // Others may have been made by way of the same memory before.
+  recordComputeBarrier(commands);
+  recordAlong(commands, structure, averages[0], rows, structure.color(), along_y);
+  recordComputeBarrier(commands);
+  recordAlong(commands, structure, averages[1], rows, along_y, planes.means);
+  recordComputeBarrier(commands);
+  planes.made_row_count += rows.count;
+}
+
 void MeanColorPass::recordAlong(Commands commands, const StructureSlot& structure,
-                                const ComputePass& average, const Axis& axis,
-                                const LayeredBuffer& from, const LayeredBuffer& to) {
+                                const Average& average, Rows rows, const LayeredBuffer& from,
+                                const LayeredBuffer& to) {
+  const Axis& axis = average.axis;
   const uint32_t strip_px = stripPx();
   const SizePx size_px = structure.shape().depth_px;
   const uint32_t layer_count = structure.shape().layerCount();
@@ -109,7 +140,8 @@ void MeanColorPass::recordAlong(Commands commands, const StructureSlot& structur
                         .from = {},
                         .to = {},
                         .size_px = packSize(size_px),
-                        .last_weight = tapWeight(axis.reach_px, tapCount(axis.reach_px))};
+                        .last_weight = tapWeight(axis.reach_px, tapCount(axis.reach_px)),
+                        .first_strip = axis.is_y ? rows.first / strip_px : rows.first};
   for (uint32_t i = 0; i < layer_count; ++i) {
     push.layers[i] = addressWords(structure.structure().address(i));
     push.from[i] = addressWords(from.address(i));
@@ -119,12 +151,12 @@ void MeanColorPass::recordAlong(Commands commands, const StructureSlot& structur
       structure.structure().asTexels(abi::kBindingStructure),
       structure.structure().asHalfTexels(abi::kBindingStructureHalves),
       from.asTexels(abi::kBindingColor), to.asStorage(abi::kBindingMeans)};
-  average.recordDescriptors(commands, descriptors);
+  average.pass.recordDescriptors(commands, descriptors);
   const auto stripCount = [&](uint32_t length_px) { return (length_px + strip_px - 1) / strip_px; };
-  const SizePx strips = axis.is_y ? SizePx{size_px.width, stripCount(size_px.height)}
-                                  : SizePx{stripCount(size_px.width), size_px.height};
+  const SizePx strips = axis.is_y ? SizePx{size_px.width, stripCount(rows.count)}
+                                  : SizePx{stripCount(size_px.width), rows.count};
   // A software device gives each core a run of groups: layers come first, as deeper ones cost less.
-  average.record(commands, push, layer_count, groupCount(strips.width), strips.height);
+  average.pass.record(commands, push, layer_count, groupCount(strips.width), strips.height);
 }
 
 }  // namespace viewloom

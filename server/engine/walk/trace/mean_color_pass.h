@@ -30,6 +30,9 @@ class MeanColorPass {
   // The planes of a structure, averaged over a reach. Records what makes them where that has not
   // been done since the upload: later submissions to the queue see it, too.
   Color record(Commands commands, const StructureSlot& structure, const ColorReach& reach);
+  // Records the next rows of that, of about so many texels. Returns how many; 0 = all is made.
+  uint64_t recordRows(Commands commands, const StructureSlot& structure, const ColorReach& reach,
+                      uint64_t texel_count_max);
 
  private:
   struct Variant {
@@ -48,13 +51,26 @@ class MeanColorPass {
     float reach_px;
     uint32_t format;
   };
+  struct Average {
+    Axis axis;
+    const ComputePass& pass;
+  };
+  using Averages = std::array<Average, 2>;  // along y, then along x
 
   static ComputePass makePass(const Device& device, const Variant& variant);
   static std::array<Axis, 2> axesOf(const StructureSlot& structure, const ColorReach& reach);
+  Averages averagesOf(const StructureSlot& structure, const ColorReach& reach);
   Variant variantOf(const StructureSlot& structure, const Axis& axis) const;
   uint32_t stripPx() const;
-  void recordAlong(Commands commands, const StructureSlot& structure, const ComputePass& average,
-                   const Axis& axis, const LayeredBuffer& from, const LayeredBuffer& to);
+  // A mean along x takes means along y of its own row alone: rows are made one after the other.
+  void recordMeans(Commands commands, const StructureSlot& structure, const Averages& averages,
+                   uint32_t row_count, MeanColor::Planes& planes);
+  struct Rows {
+    uint32_t first = 0;
+    uint32_t count = 0;
+  };
+  void recordAlong(Commands commands, const StructureSlot& structure, const Average& average,
+                   Rows rows, const LayeredBuffer& from, const LayeredBuffer& to);
 
   const Device& device_;
   PassMap<Variant> passes_;

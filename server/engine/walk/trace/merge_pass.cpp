@@ -100,7 +100,7 @@ void MergePass::addMissing(std::span<const StructureSlot* const> structures, con
 
 // Piece by piece of the band.
 void MergePass::record(Commands commands, std::span<const StructureSlot* const> structures,
-                       const TraceJob& job, BandRows rows, const BandRays& rays,
+                       const TraceJob& job, BandRows rows, RowSpan span, const BandRays& rays,
                        const TraceSlot& slot) {
   const AtlasLayout& layout = *job.layout;
   const AnswersLayout answers = answersLayout(layout.size_px.width, rows.row_count, job.walk_count);
@@ -109,12 +109,12 @@ void MergePass::record(Commands commands, std::span<const StructureSlot* const> 
   std::vector<Descriptor> descriptors = slot.params().of(job, 0, rays.sample);
   descriptors.push_back(wholeBuffer(abi::kBindingBand, slot.sampleTarget(job)));
   descriptors.push_back(wholeBuffer(abi::kBindingAnswers, slot.answers()));
-  for (uint32_t row = 0; row < rows.row_count; row += answers.row_count) {
-    const BandRows piece{rows.first_row + row, std::min(answers.row_count, rows.row_count - row)};
+  for (uint32_t row = span.first; row < span.end; row += answers.row_count) {
+    const BandRows piece{rows.first_row + row, std::min(answers.row_count, span.end - row)};
     for (uint32_t walk = 0; walk < job.walk_count; ++walk) {
       if (!hasBit(walks, walk)) continue;
-      walk_.record(commands, {*structures[walk], job, walk, rays}, piece, slot,
-                   slot.answersOf(walk, answers));
+      walk_.record(commands, {*structures[walk], job, walk, rays}, piece, {0, piece.row_count},
+                   slot, slot.answersOf(walk, answers));
     }
     recordComputeBarrier(commands);
     join_.record(commands, job, walks, layout.size_px.width * piece.row_count, answers, slot);

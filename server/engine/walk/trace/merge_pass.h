@@ -24,9 +24,10 @@ class MergePass {
   // Kernels that record() needs.
   void addMissing(std::span<const StructureSlot* const> structures, const TraceJob& job,
                   const BandRays& rays, MissingKernels& missing);
-  // One ray of each px of the slot's band. What follows may read the px.
+  // One ray of each px of some rows of the slot's band. What follows may read the px.
   void record(Commands commands, std::span<const StructureSlot* const> structures,
-              const TraceJob& job, BandRows rows, const BandRays& rays, const TraceSlot& slot);
+              const TraceJob& job, BandRows rows, RowSpan span, const BandRays& rays,
+              const TraceSlot& slot);
 
  private:
   struct Variant {

@@ -56,29 +56,29 @@ MissingKernels ViewTracer::missing(std::span<const StructureSlot* const> structu
 void ViewTracer::recordBand(Commands commands, std::span<const StructureSlot* const> structures,
                             const TraceJob& job, BandRows rows, TraceSlot& slot, GpuTimer* timer) {
   if (timer) timer->recordBegin(commands, "trace");
-  const uint32_t part_count = BandParts(job, rows).count();
-  for (uint32_t part = 0; part < part_count; ++part) {
-    recordPart(commands, structures, job, rows, part, slot);
+  for (BandParts parts(job, rows); !parts.isOver();) {
+    recordPart(commands, structures, job, rows, parts.take(), slot);
   }
   if (timer) timer->recordEnd(commands);
 }
 
 void ViewTracer::recordPart(Commands commands, std::span<const StructureSlot* const> structures,
-                            const TraceJob& job, BandRows rows, uint32_t index, TraceSlot& slot) {
+                            const TraceJob& job, BandRows rows, const BandPart& part,
+                            TraceSlot& slot) {
   const StructureSlot& first = *structures.front();
-  const BandParts parts(job, rows);
-  const BandPart part = parts.at(index);
-  if (index == 0) slot.recordBegin(commands, structures, job, rows);
+  if (part.is_first) slot.recordBegin(commands, structures, job, rows);
   if (job.gathers_on_host) recordEmptyList(commands, slot.incomplete());
-  if (part.reflects) recordReflections(commands, structures, job, rows, part, slot);
-  for (const BandRays& rays : raysOfPart(job, first, slot.shape().outputs, part)) {
-    recordRays(commands, structures, job, rows, rays, slot);
-    recordAfter(commands, first, job, rows, rays, slot);
+  if (part.kind == PartKind::kReflect) {
+    recordReflections(commands, structures, job, rows, part, slot);
   }
-  if (gathersOnDevice(job, first) && !part.walks()) {
+  for (const BandRays& rays : raysOfPart(job, first, slot.shape().outputs, part)) {
+    recordRays(commands, structures, job, rows, part, rays, slot);
+    recordAfter(commands, first, job, rows, part, rays, slot);
+  }
+  if (part.kind == PartKind::kGather && gathersOnDevice(job, first)) {
     lens_.record(commands, first, job, rows, part, slot);
   }
-  if (index + 1 < parts.count()) return;
+  if (!part.is_last) return;
   const ColorForm form = slot.shape().outputs.color;
   if (form != ColorForm::kRgba) {
     pack_.record(commands, slot.rgba(), slot.colorTarget(), slot.bandSize_px(), form);
@@ -86,26 +86,43 @@ void ViewTracer::recordPart(Commands commands, std::span<const StructureSlot* co
   slot.recordReadback(commands);
 }
 
+uint64_t ViewTracer::recordMeans(Commands commands,
+                                 std::span<const StructureSlot* const> structures,
+                                 const TraceJob& job, const TraceOutputs& outputs,
+                                 uint64_t texel_count_max) {
+  for (const BandRays& rays :
+       raysOfPart(job, *structures.front(), outputs, {.end_sample = job.sample_count})) {
+    for (uint32_t walk = 0; walk < job.walk_count; ++walk) {
+      const uint64_t texel_count =
+          walk_.recordMeans(commands, {*structures[walk], job, walk, rays}, texel_count_max);
+      if (texel_count > 0) return texel_count;
+    }
+  }
+  return 0;
+}
+
 void ViewTracer::recordRays(Commands commands, std::span<const StructureSlot* const> structures,
-                            const TraceJob& job, BandRows rows, const BandRays& rays,
-                            const TraceSlot& slot) {
+                            const TraceJob& job, BandRows rows, const BandPart& part,
+                            const BandRays& rays, const TraceSlot& slot) {
+  const RowSpan span{part.first_row, part.end_row};
   if (job.walk_count > 1) {
-    merge_.record(commands, structures, job, rows, rays, slot);
+    merge_.record(commands, structures, job, rows, span, rays, slot);
     return;
   }
   const Descriptor target = wholeBuffer(abi::kBindingBand, slot.sampleTarget(job));
-  walk_.record(commands, {*structures.front(), job, 0, rays}, rows, slot, target);
+  walk_.record(commands, {*structures.front(), job, 0, rays}, rows, span, slot, target);
 }
 
 // Rays that are walked for the second stage of a lens add their light, and leave what they met:
 // blocks where a round of them met nothing new have no more of them. The second stage makes px of
-// the sums.
+// the sums. That is for the whole band, after its last rows.
 void ViewTracer::recordAfter(Commands commands, const StructureSlot& structure, const TraceJob& job,
-                             BandRows rows, const BandRays& rays, const TraceSlot& slot) {
+                             BandRows rows, const BandPart& part, const BandRays& rays,
+                             const TraceSlot& slot) {
   const bool is_middle = job.hasLens() && !rays.through_lens;
   const bool gathers = gathersOnDevice(job, structure);
   if (is_middle || gathers) recordComputeBarrier(commands);
-  if (is_middle) return;
+  if (is_middle || part.end_row < rows.row_count) return;
   if (gathers) {
     const MetRound round = metRound(rays.sample, job.sample_count);
     if (rays.sample + 1 == round.end) {

@@ -51,14 +51,20 @@ class ViewTracer {
   // The same part by part (BandParts), all of them in their order, each in a submission of its own
   // if wanted. Nothing else may use the slot meanwhile.
   void recordPart(Commands commands, std::span<const StructureSlot* const> structures,
-                  const TraceJob& job, BandRows rows, uint32_t part, TraceSlot& slot);
+                  const TraceJob& job, BandRows rows, const BandPart& part, TraceSlot& slot);
+  // Records some of the means of colour that the job's bands take, of about so many texels. Returns
+  // how many; 0 = there are all. Parts make what is left of them in one go.
+  uint64_t recordMeans(Commands commands, std::span<const StructureSlot* const> structures,
+                       const TraceJob& job, const TraceOutputs& outputs, uint64_t texel_count_max);
 
  private:
   void recordRays(Commands commands, std::span<const StructureSlot* const> structures,
-                  const TraceJob& job, BandRows rows, const BandRays& rays, const TraceSlot& slot);
+                  const TraceJob& job, BandRows rows, const BandPart& part, const BandRays& rays,
+                  const TraceSlot& slot);
   // Records the work that has to follow those rays.
   void recordAfter(Commands commands, const StructureSlot& structure, const TraceJob& job,
-                   BandRows rows, const BandRays& rays, const TraceSlot& slot);
+                   BandRows rows, const BandPart& part, const BandRays& rays,
+                   const TraceSlot& slot);
   void recordReflections(Commands commands, std::span<const StructureSlot* const> structures,
                          const TraceJob& job, BandRows rows, const BandPart& part,
                          const TraceSlot& slot);

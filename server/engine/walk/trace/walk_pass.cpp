@@ -134,14 +134,19 @@ std::vector<Descriptor> WalkPass::describe(const Walk& walk, const Variant& vari
   return descriptors;
 }
 
-void WalkPass::record(Commands commands, const Walk& walk, BandRows rows, const TraceSlot& slot,
-                      const Descriptor& target) {
+uint64_t WalkPass::recordMeans(Commands commands, const Walk& walk, uint64_t texel_count_max) {
+  return mean_color_.recordRows(commands, walk.structure, reachOf(walk), texel_count_max);
+}
+
+void WalkPass::record(Commands commands, const Walk& walk, BandRows rows, RowSpan span,
+                      const TraceSlot& slot, const Descriptor& target) {
   const Variant variant = variantOf(walk);
   const ComputePass& walk_views = passes_.get(variant);
   const MeanColorPass::Color color = mean_color_.record(commands, walk.structure, reachOf(walk));
   if (variant.lists_unfinished) recordEmptyList(commands, slot.unfinished());
   walk_views.recordDescriptors(commands, describe(walk, variant, color.texels, slot, target));
   abi::TracePush push = tracePush(walk, color.texels, rows);
+  push.band_row = span.first;
   constexpr uint64_t kGroupsOffset = offsetof(abi::IncompleteHead, group_count);
   if (walk.rays.areListed()) {
     walk_views.recordIndirect(commands, push, slot.incomplete(), kGroupsOffset);
@@ -150,10 +155,11 @@ void WalkPass::record(Commands commands, const Walk& walk, BandRows rows, const 
   const AtlasLayout& layout = *walk.job.layout;
   const uint32_t pixels = variant.pixels_per_invocation;
   const uint32_t runs = (layout.tile_size_px.width + pixels - 1) / pixels * layout.columns;
-  walk_views.record(commands, push, groupCount(runs), rows.row_count);
+  walk_views.record(commands, push, groupCount(runs), span.end - span.first);
   if (!variant.lists_unfinished) return;
   recordComputeBarrier(commands);
   push.fill |= abi::kFillUnfinished;
+  push.band_row = 0;  // they are listed with their rows of the band
   walk_views.recordIndirect(commands, push, slot.unfinished(), kGroupsOffset);
 }
 

@@ -21,11 +21,13 @@ class WalkPass {
   // Kernels that record() needs.
   void addMissing(const Walk& walk, MissingKernels& missing);
 
-  // Rays of these rows of the slot's band. `target`: where they answer, at abi::kBindingBand. The
-  // structure's build is done, not only recorded: its stats choose the kernel. Nothing is
-  // synchronised afterwards.
-  void record(Commands commands, const Walk& walk, BandRows rows, const TraceSlot& slot,
-              const Descriptor& target);
+  // Rays of some rows of the slot's band, which has these rows of the atlas; listed rays are those
+  // of the whole band. `target`: where they answer, at abi::kBindingBand. The structure's build is
+  // done, not only recorded: its stats choose the kernel. Nothing is synchronised afterwards.
+  void record(Commands commands, const Walk& walk, BandRows rows, RowSpan span,
+              const TraceSlot& slot, const Descriptor& target);
+  // The same as MeanColorPass::recordRows, of the colour that the walk takes.
+  uint64_t recordMeans(Commands commands, const Walk& walk, uint64_t texel_count_max);
 
  private:
   struct Variant {

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// How many frames a second of a publisher are used, to ask it for no more.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+
+namespace viewloom {
+
+// While all frames are used, there is no limit. When some are replaced by newer ones, the limit is
+// a little more than the frames that were used. It rises again while none is replaced.
+// Thread-safety: none.
+class UsedRate {
+ public:
+  // A frame was used, or a newer one has replaced it. True if the limit is another one now.
+  bool note(bool is_used, int64_t now_ns);
+  // Forgets everything: the frames are wanted otherwise now.
+  void reset() { *this = {}; }
+
+  // Frames a second; 0 = as many as there are.
+  double limitHz() const { return limit_hz_; }
+
+ private:
+  struct Outcome {
+    int64_t time_ns = 0;
+    bool is_used = false;
+  };
+
+  bool lower(double used_hz, int64_t now_ns);
+  bool raise(double received_hz, int64_t now_ns);
+
+  std::deque<Outcome> outcomes_;  // of the last while
+  double limit_hz_ = 0;
+  int64_t changed_ns_ = 0;  // the limit
+};
+
+}  // namespace viewloom

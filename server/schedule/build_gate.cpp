@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "schedule/build_gate.h"
+
+#include <algorithm>
+
+namespace viewloom {
+
+std::optional<int64_t> BuildGate::waitUntilNs(const StreamDemand& demand, int64_t now_ns) const {
+  if (!built_ns_ || demand.is_asked) return std::nullopt;
+  int64_t until_ns = now_ns;
+  if (!demand.is_watched) until_ns = unwatched_ns_;
+  if (demand.is_watched && demand.all_wait) until_ns = *built_ns_ + kHeldFrame_ns;
+  if (until_ns <= now_ns) return std::nullopt;
+  return until_ns;
+}
+
+// Each frame without viewers uses up a part of the burst, which comes back with time.
+void BuildGate::noteBuilt(const StreamDemand& demand, int64_t now_ns) {
+  built_ns_ = now_ns;
+  if (demand.is_watched) return;
+  const int64_t begin_ns = now_ns - (kUnwatchedBurst - 1) * kUnwatched_ns;
+  unwatched_ns_ = std::max(unwatched_ns_, begin_ns) + kUnwatched_ns;
+}
+
+}  // namespace viewloom
