@@ -5,6 +5,17 @@
 
 namespace viewloom {
 
+ResidentStructure describe(const Frame& frame) {
+  ResidentStructure structure;
+  structure.frame_number = frame.format.number;
+  structure.capture_time_ns = frame.format.capture_time_ns;
+  structure.times = frame.times;
+  for (const SourceFormat& source : frame.format.sources) {
+    structure.sources.push_back(seenSource(source));
+  }
+  return structure;
+}
+
 std::shared_ptr<FrameForms> FrameBuilder::takeSlot(SlotPool<FrameForms>& slots,
                                                    StreamPreparers& preparers,
                                                    const FramePtr& frame) const {

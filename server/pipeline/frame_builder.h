@@ -10,6 +10,9 @@
 
 namespace viewloom {
 
+// Description of a structure from the frame alone.
+ResidentStructure describe(const Frame& frame);
+
 // Thread-safety: all methods may be called from any thread.
 class FrameBuilder {
  public:

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "base/log.h"
-#include "base/str_cat.h"
 #include "base/thread_name.h"
+#include "pipeline/atlas_order.h"
 #include "pipeline/within_memory.h"
 
 namespace viewloom {
@@ -19,12 +19,6 @@ const char* threadName(TraceMethod method) {
 absl::Status cannotRender() {
   return absl::FailedPreconditionError(
       "this server cannot render such a display of this stream; choose another display");
-}
-
-std::string nameOf(const Payers& payers) {
-  std::string names;
-  for (const Payer& payer : payers) names += strCat(payer.name(), " ");
-  return names;
 }
 
 }  // namespace
@@ -127,7 +121,7 @@ void PictureLoop::noteWork(const AtlasRun& run, const DoneWork& work) const {
 // False while there is no room for it.
 bool PictureLoop::beginMaking(const AtlasRunPtr& run) {
   latchEyes(*run);
-  AtlasOrder order = orderOf(*run);
+  AtlasOrder order = orderOf(*run, rank_);
   order.note_work = [this, run](const DoneWork& work) { noteWork(*run, work); };
   run->making = engine_.begin(std::move(order), [run, &desk = desk_](StripWorkPtr work) {
     const absl::Status status = withinMemory(
@@ -138,22 +132,6 @@ bool PictureLoop::beginMaking(const AtlasRunPtr& run) {
   run->planes = run->making->planes();
   desk_.publisher.open(*run);
   return true;
-}
-
-AtlasOrder PictureLoop::orderOf(const AtlasRun& run) const {
-  AtlasOrder order{.picture = run.picture,
-                   .plan = run.plan,
-                   .frames = {},
-                   .strips = run.strips,
-                   .planes = run.planes,
-                   .is_for_eyes = run.isTracked(),
-                   .picture_key = run.job.picture_key,
-                   .payer = nameOf(run.claim.payers),
-                   .note_work = nullptr};
-  for (const ResidentStructure* structure : structuresOf(run.job)) {
-    order.frames.push_back(structure->forms->of(rank_));
-  }
-  return order;
 }
 
 bool PictureLoop::hasRoomForEyes(const Payers& payers) const {
@@ -235,7 +213,7 @@ bool PictureLoop::waitsForNewer(AtlasJob& job) {
 }
 
 bool PictureLoop::isReady(const AtlasRun& run) {
-  return engine_.isReady(orderOf(run),
+  return engine_.isReady(orderOf(run, rank_),
                          [&board = desk_.board, &wake_up = wake_up_, key = run.job.picture_key] {
                            board.finish(key);
                            wake_up.ring();
@@ -300,7 +278,7 @@ void PictureLoop::latchEyes(AtlasRun& run) {
     if (!picture.ok()) return;
     const std::optional<PlannedPicture> planned = desk_.plans.get(run.job, *picture);
     if (!planned || planned->engine != rank_) return;
-    AtlasOrder order = orderOf(run);
+    AtlasOrder order = orderOf(run, rank_);
     order.picture = *picture;
     order.plan = planned->plan;
     if (!engine_.isReady(order, [] {})) return;

@@ -88,7 +88,6 @@ class PictureLoop {
   void refusePicture(const std::string& picture_key, const absl::Status& status);
   bool makeStep(const AtlasRunPtr& run);
   bool beginMaking(const AtlasRunPtr& run);
-  AtlasOrder orderOf(const AtlasRun& run) const;
   void noteWork(const AtlasRun& run, const DoneWork& work) const;
   // Whether the engine makes it at once; else what it lacks is being prepared, and the picture may
   // begin when that is there.

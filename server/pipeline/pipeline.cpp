@@ -4,12 +4,11 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
-#include <map>
-#include <mutex>
 #include <utility>
 
 #include "base/log.h"
 #include "display/atlas_layout.h"
+#include "pipeline/asked_pictures.h"
 #include "pipeline/encode_pool.h"
 #include "pipeline/frame_builder.h"
 #include "pipeline/grace.h"
@@ -112,8 +111,7 @@ struct Pipeline::Loops {
   std::atomic<bool> has_failed = false;
   std::atomic<bool> has_demand_changed = false;
   std::function<void()> on_room = [] {};  // see FrameSink
-  std::mutex asked_mutex;
-  std::multimap<std::string, std::string> asked;  // pictures by stream; guarded by asked_mutex
+  AskedPictures asked;
   FairShares shares;
   AtlasPublisher publisher;
   EncodePool encoders;
@@ -162,10 +160,7 @@ void Pipeline::Loops::noteComplete(const AtlasRun& run) {
 bool Pipeline::Loops::askNewer(const std::string& name, const std::string& picture_key) {
   const PipelineStreamPtr stream = streams.find(name);
   if (!stream || stream->inbox.empty() || is_draining) return false;
-  {
-    std::lock_guard lock(asked_mutex);
-    asked.emplace(name, picture_key);
-  }
+  asked.add(name, picture_key);
   stream->is_asked = true;
   structure_bell.ring();
   return true;
@@ -173,13 +168,7 @@ bool Pipeline::Loops::askNewer(const std::string& name, const std::string& pictu
 
 void Pipeline::Loops::beginAsked(const std::string& stream) {
   on_room();  // the frame that waited is in hand
-  std::vector<std::string> picture_keys;
-  {
-    std::lock_guard lock(asked_mutex);
-    const auto [begin, end] = asked.equal_range(stream);
-    for (auto picture = begin; picture != end; ++picture) picture_keys.push_back(picture->second);
-    asked.erase(begin, end);
-  }
+  const std::vector<std::string> picture_keys = asked.takeAll(stream);
   if (picture_keys.empty()) return;
   for (const std::string& picture_key : picture_keys) board.finish(picture_key);
   ringEngines();

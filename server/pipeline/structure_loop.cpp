@@ -21,18 +21,6 @@ constexpr int64_t kShortBuild_ns = 50'000'000;
 // Time of a px of a form until something was measured.
 constexpr double kFormPxStart_ns = 30;
 
-// Description of a structure from the frame alone.
-ResidentStructure describe(const Frame& frame) {
-  ResidentStructure structure;
-  structure.frame_number = frame.format.number;
-  structure.capture_time_ns = frame.format.capture_time_ns;
-  structure.times = frame.times;
-  for (const SourceFormat& source : frame.format.sources) {
-    structure.sources.push_back(seenSource(source));
-  }
-  return structure;
-}
-
 }  // namespace
 
 StructureLoop::StructureLoop(const Links& links, OnResident on_resident, OnServed on_served)

@@ -226,12 +226,6 @@ void SweeperShelf::putBack(std::unique_ptr<ViewSweeper> sweeper) {
   free_.push_back(std::move(sweeper));
 }
 
-std::shared_ptr<HeldAtlas> AtlasPool::take(const std::string& key) {
-  if (aside_ && slots_.passOn(aside_, key)) return std::exchange(aside_, nullptr);
-  return slots_.take(
-      key, [](const HeldAtlas&) { return true; }, [] { return std::make_unique<HeldAtlas>(); });
-}
-
 SweepEngine::SweepEngine(uint32_t atlas_count, WorkerPool& workers, MemoryBudget& memory)
     : workers_(workers),
       memory_(memory),
@@ -268,11 +262,11 @@ std::unique_ptr<Making> SweepEngine::begin(AtlasOrder order, HandOn hand_on) {
   const std::string& key = is_small && !order.is_for_eyes ? order.picture_key : order.payer;
   AtlasPool& pool = order.is_for_eyes ? atlases_for_eyes_ : atlases_;
   const bool are_others_lent = atlases_.lentCount() + atlases_for_eyes_.lentCount() > 0;
-  std::shared_ptr<HeldAtlas> atlas = pool.take(key);
-  if (!atlas) return nullptr;
   TraceOutputs planes = order.planes;
   planes.color = AtlasSweep::sweepOf(order).plan.colorForm(planes.color);
-  if (!makeRoom(order, planes, *atlas)) {
+  std::shared_ptr<HeldAtlas> atlas = pool.take(key, *order.picture, planes);
+  if (!atlas) return nullptr;
+  if (!atlas->makeRoom(memory_, *order.picture, planes)) {
     if (are_others_lent) {
       pool.putAside(std::move(atlas));
       return nullptr;
@@ -283,22 +277,6 @@ std::unique_ptr<Making> SweepEngine::begin(AtlasOrder order, HandOn hand_on) {
   }
   return std::make_unique<SweepMaking>(std::move(order), planes, std::move(atlas), sweepers_,
                                        std::move(hand_on));
-}
-
-// An atlas that was much larger is made anew, so that it gives the rest back.
-bool SweepEngine::makeRoom(const AtlasOrder& order, const TraceOutputs& planes, HeldAtlas& atlas) {
-  constexpr uint64_t kWasteFactorMax = 4;
-  const uint64_t needed_bytes = SweptAtlas().capacityBytesFor(*order.picture, planes);
-  const bool fits = atlas.planes.capacityBytesFor(*order.picture, planes) <= atlas.memory.bytes() &&
-                    atlas.memory.bytes() <= kWasteFactorMax * needed_bytes;
-  if (fits) return true;
-  atlas.planes = {};
-  atlas.memory.release();
-  std::optional<Reservation> reserved =
-      memory_.tryReserve({.use = MemoryUse::kAtlases, .bytes = needed_bytes});
-  if (!reserved) return false;
-  atlas.memory = *std::move(reserved);
-  return true;
 }
 
 }  // namespace viewloom

@@ -12,9 +12,9 @@
 
 #include "admission/memory_budget.h"
 #include "base/cost_estimate.h"
-#include "base/keyed_slots.h"
 #include "base/worker_pool.h"
 #include "engine/engine.h"
+#include "sweep/atlas_pool.h"
 #include "sweep/view_sweeper.h"
 
 namespace viewloom {
@@ -28,31 +28,6 @@ class SweeperShelf {
  private:
   std::mutex mutex_;
   std::vector<std::unique_ptr<ViewSweeper>> free_;
-};
-
-// An atlas, and its memory in the budget.
-struct HeldAtlas {
-  Reservation memory;
-  SweptAtlas planes;  // last: it goes first
-};
-
-// Lends atlases. One for which the budget had no room waits aside: its return would tell everybody
-// that there is room. Thread-safety: as KeyedSlots, but one thread takes and puts aside.
-class AtlasPool {
- public:
-  AtlasPool(size_t atlas_count_max, std::function<void()> on_return)
-      : slots_(atlas_count_max, std::move(on_return)) {}
-
-  // nullptr: the borrower of this key holds one, and all others are lent.
-  std::shared_ptr<HeldAtlas> take(const std::string& key);
-  void putAside(std::shared_ptr<HeldAtlas> atlas) { aside_ = std::move(atlas); }
-  bool hasRoom(const std::string& key) { return aside_ || slots_.hasRoom(key); }
-  size_t lentCount() const { return slots_.lentCount() - (aside_ ? 1 : 0); }
-  std::shared_ptr<IdleMemory> idleMemory() const { return slots_.idleMemory(); }
-
- private:
-  KeyedSlots<HeldAtlas> slots_;
-  std::shared_ptr<HeldAtlas> aside_;
 };
 
 class SweepEngine final : public Engine {
@@ -76,9 +51,6 @@ class SweepEngine final : public Engine {
   void drain() override {}
 
  private:
-  // Memory for the atlas; false = the budget has none.
-  bool makeRoom(const AtlasOrder& order, const TraceOutputs& planes, HeldAtlas& atlas);
-
   EngineEvents events_;
   WorkerPool& workers_;
   MemoryBudget& memory_;

@@ -40,6 +40,15 @@ float cleanShare(const SweepPicture& picture, const SweepView& view, uint32_t wi
   return std::min(std::abs(eye_px_m) * picture.source.steps.inv_z_range, 1.0F);
 }
 
+// A vector that grows by itself may take twice what it needs, and keeps its old content.
+void resizeExactly(size_t count, auto& plane) {
+  if (plane.capacity() < count) {
+    plane = {};
+    plane.reserve(count);
+  }
+  plane.resize(count);
+}
+
 }  // namespace
 
 void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
@@ -47,7 +56,7 @@ void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
   const bool is_rgba = outputs.color == ColorForm::kRgba;
   const bool clears = hasUnusedPixels(job);
   const auto reset = [&](bool is_wanted, size_t count, auto value, auto& plane) {
-    plane.resize(is_wanted ? count : 0);
+    resizeExactly(is_wanted ? count : 0, plane);
     if (clears) std::fill(plane.begin(), plane.end(), value);
   };
   reset(is_rgba, area_px, kOpaqueBlack, color);
@@ -57,7 +66,7 @@ void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
   reset(outputs.records, area_px, abi::RayRecord{}, records);
   if (is_rgba) return ycbcr.clear();
   const YcbcrLayout layout(job.layout->size_px, outputs.color);
-  ycbcr.resize(layout.sizeBytes());
+  resizeExactly(layout.sizeBytes(), ycbcr);
   if (!clears) return;
   std::fill_n(ycbcr.begin(), layout.lumaBytes(), abi::lumaOf(0, 0, 0));
   static_assert(abi::cbOf(0, 0, 0) == abi::crOf(0, 0, 0));
