@@ -80,10 +80,8 @@ bool PictureLoop::makePartOf(const AtlasRunPtr& run) {
 
 void PictureLoop::giveUp(const AtlasRunPtr& run, const absl::Status& status) {
   if (run->making) run->making->giveUp();
-  run->making = nullptr;
-  begun_.remove(*run);
+  finish(run);
   desk_.publisher.giveUp(*run, status);
-  desk_.board.finish(run->job.picture_key);
 }
 
 void PictureLoop::refusePicture(const std::string& picture_key, const absl::Status& status) {

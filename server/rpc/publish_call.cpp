@@ -44,9 +44,7 @@ absl::Status PublishCall::handleMessage(grpc::ByteBuffer& bytes) {
   }
   if (assembly_.has_value()) {
     const auto taken_bytes = readChunk(bytes, *assembly_);
-    if (taken_bytes.has_value()) {
-      return taken_bytes->ok() ? noteChunk(**taken_bytes) : taken_bytes->status();
-    }
+    if (taken_bytes) return taken_bytes->ok() ? noteChunk(**taken_bytes) : taken_bytes->status();
   }
   v1::PublishFramesRequest request;
   VIEWLOOM_RETURN_IF_ERROR(parseMessage(bytes, request));
@@ -186,8 +184,7 @@ void PublishCall::offerFrame() {
         if (call) call->tell(report);
       },
       [weak = weak_from_this()] {
-        const auto call = std::static_pointer_cast<PublishCall>(weak.lock());
-        if (call) call->onTaken();
+        if (const auto call = weak.lock()) std::static_pointer_cast<PublishCall>(call)->onTaken();
       });
 }
 
@@ -206,6 +203,7 @@ void PublishCall::onTaken() {
 }
 
 void PublishCall::onReport(const FrameReport& report) {
+  bool has_new_rate = false;
   {
     std::lock_guard lock(mutex_);
     --unreported_count_;
@@ -213,15 +211,9 @@ void PublishCall::onReport(const FrameReport& report) {
     *response.mutable_report() = reportToProto(report);
     replies_.push_back(bytesFromMessage(response));
     advance();
+    has_new_rate = wanted_.note(report.outcome, parts_.clock.nowNs());
   }
-  if (noteOutcome(report.outcome) || report.outcome == FrameOutcome::kTraced) refreshWanted();
-}
-
-// True if the publisher is to send at another rate.
-bool PublishCall::noteOutcome(FrameOutcome outcome) {
-  if (outcome == FrameOutcome::kRefused) return false;
-  std::lock_guard lock(mutex_);
-  return used_rate_.note(outcome != FrameOutcome::kReplaced, parts_.clock.nowNs());
+  if (has_new_rate || report.outcome == FrameOutcome::kTraced) refreshWanted();
 }
 
 absl::Status PublishCall::handleHalfClose() {
@@ -254,8 +246,8 @@ std::optional<grpc::ByteBuffer> PublishCall::takeMessage() {
   if (!replies_.empty()) {
     message.emplace().Swap(&replies_.front());
     replies_.pop_front();
-  } else if (wanted_.has_value()) {
-    message = std::exchange(wanted_, std::nullopt);
+  } else if (wanted_.isDue()) {
+    message = wanted_.take();
   } else if (heartbeat_is_due_ && !ending()) {
     heartbeat_is_due_ = false;
     v1::PublishFramesResponse response;
@@ -295,25 +287,14 @@ std::string PublishCall::stream() {
 }
 
 void PublishCall::refreshWanted() {
-  const std::string name = stream();
   std::vector<AtlasPtr> atlases;
-  const std::vector<ActiveDisplayPtr> displays = parts_.broadcaster.displays(name);
+  const std::vector<ActiveDisplayPtr> displays = parts_.broadcaster.displays(stream());
   for (const ActiveDisplayPtr& display : displays) {
     if (AtlasPtr atlas = parts_.broadcaster.newest(display->id))
       atlases.push_back(std::move(atlas));
   }
-  v1::PublishFramesResponse response;
   std::lock_guard lock(mutex_);
-  const auto display_count = static_cast<uint32_t>(displays.size());
-  if ((display_count == 0) != (display_count_ == 0)) used_rate_.reset();
-  display_count_ = display_count;
-  *response.mutable_wanted() = wants_.wanted(atlases, display_count);
-  response.mutable_wanted()->set_rate_hz(used_rate_.limitHz());
-  std::string serialised = response.SerializeAsString();
-  if (ending() || serialised == last_wanted_) return;
-  last_wanted_ = std::move(serialised);
-  wanted_ = bytesFromMessage(response);
-  advance();
+  if (!ending() && wanted_.refresh(atlases, static_cast<uint32_t>(displays.size()))) advance();
 }
 
 }  // namespace viewloom

@@ -21,8 +21,7 @@
 #include "rpc/bidi_call.h"
 #include "rpc/call_access.h"
 #include "rpc/liveness.h"
-#include "rpc/source_wants.h"
-#include "rpc/used_rate.h"
+#include "rpc/wanted_message.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
 namespace viewloom {
@@ -80,7 +79,6 @@ class PublishCall final : public BidiCall {
   // A report that finds no memory ends the call.
   void tell(const FrameReport& report);
   void onReport(const FrameReport& report);
-  bool noteOutcome(FrameOutcome outcome);
 
   const IngestParts parts_;
   const std::string host_;
@@ -98,14 +96,10 @@ class PublishCall final : public BidiCall {
   std::string stream_;
   Reservation memory_;  // of the call
   std::unique_ptr<StreamDirectory::Claim> claim_;
-  std::deque<grpc::ByteBuffer> replies_;    // accepted, then reports
-  size_t unreported_count_ = 0;             // frames taken whose report has not come
-  bool frame_waits_ = false;                // to be decoded: another one would replace it
-  std::optional<grpc::ByteBuffer> wanted_;  // newest only
-  std::string last_wanted_;                 // serialised
-  SourceWants wants_;
-  UsedRate used_rate_;
-  uint32_t display_count_ = 0;   // when that was last asked
+  std::deque<grpc::ByteBuffer> replies_;  // accepted, then reports
+  size_t unreported_count_ = 0;           // frames taken whose report has not come
+  bool frame_waits_ = false;              // to be decoded: another one would replace it
+  WantedMessage wanted_;
   bool has_heartbeats_ = false;  // the publisher sends them, and gets them
   bool heartbeat_is_due_ = false;
   TicksSince heard_;  // from the publisher
