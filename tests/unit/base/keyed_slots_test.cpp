@@ -57,5 +57,16 @@ TEST_F(KeyedSlotsTest, freeWhatIsNoLongerNeeded) {
   EXPECT_EQ(made_count_, 4) << "two of the three were kept";
 }
 
+TEST_F(KeyedSlotsTest, passOneOnToAnother) {
+  const auto slot = take("first");
+  EXPECT_TRUE(slots_.passOn(slot, "second"));
+  const auto of_first = take("first");
+  const auto of_third = take("third");
+  ASSERT_TRUE(of_first && of_third);
+  EXPECT_FALSE(take("second")) << "it holds the one that was passed on";
+  EXPECT_FALSE(slots_.passOn(slot, "third")) << "it holds one, and two others are lent";
+  EXPECT_FALSE(take("second")) << "it still holds the one";
+}
+
 }  // namespace
 }  // namespace viewloom::keyed_slots_test

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <chrono>
 #include <numeric>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -116,6 +117,15 @@ TEST(WorkerPool, oneWorkerIsTheCaller) {
 
 TEST(WorkerPool, hasAWorkerACoreIfNotTold) {
   EXPECT_EQ(WorkerPool().workerCount(), std::max(1U, std::thread::hardware_concurrency()));
+}
+
+TEST(WorkerPool, servesTheNextTaskAfterAPieceThatThrew) {
+  WorkerPool pool(3);
+  const auto fail = [](uint32_t, uint32_t) { throw std::runtime_error("no memory"); };
+  EXPECT_THROW(pool.forEach(20, fail), std::runtime_error);
+  std::atomic<uint32_t> count = 0;
+  pool.forEach(20, [&](uint32_t, uint32_t) { ++count; });
+  EXPECT_EQ(count, 20U);
 }
 
 TEST(WorkerPool, endsWithoutEverHavingWorked) {
