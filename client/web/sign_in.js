@@ -2,7 +2,7 @@
 // Signs in to a server that asks for an access token. The server keeps the token in a cookie, which
 // no script can read, until the browser ends or somebody signs out.
 
-const kSession = '/api/session';
+const kSession = 'api/session';  // relative, since a proxy may serve the page below a path
 const kAnswer_ms = 5000;
 const kUnauthorized = 401;
 

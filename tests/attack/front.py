@@ -73,7 +73,9 @@ class Front:
 
     def haproxy(self, folder, ports):
         text = (DEPLOY / "haproxy.cfg").read_text()
-        changes = ports + [(r"^    bind :443 ", f"    bind 127.0.0.1:{self.port} ")]
+        changes = ports + [(r"^    bind :443 ", f"    bind 127.0.0.1:{self.port} "),
+                           # Only root can become another user.
+                           (r"^    (user|group|chroot) .*\n", "")]
         (folder / "haproxy.cfg").write_text(replaced(text, changes))
         return ["-db", "-f", folder / "haproxy.cfg"]
 

@@ -76,6 +76,16 @@ class BehindAFront(unittest.TestCase):
             reply = self.fetch(path, headers={**upgrade, "Origin": origin})
             self.assertEqual(reply.status, status, origin)
 
+    def test_lets_the_page_sign_in_and_out(self):
+        path = "/viewloom/api/session"
+        for method, status in (("GET", 200), ("POST", 200), ("DELETE", 200),
+                               ("PUT", {"haproxy": 405, "nginx": 403}[KIND])):
+            with self.subTest(method=method):
+                reply = self.fetch(path, method=method, headers={"Content-Length": "0"})
+                self.assertEqual(reply.status, status)
+        cookie = self.fetch(path, method="DELETE").getheader("set-cookie")
+        self.assertIn("secure", cookie.lower())
+
     def test_refuses_other_names_paths_and_methods(self):
         for path, host, method, status in (
                 ("/viewloom/", "evil.example", "GET", 421),
