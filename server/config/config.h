@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The settings of viewloomd, typed, with their defaults. config/settings.cpp holds key, unit, help
-// text and range of each. deploy/viewloomd.example.toml and deploy/README.md explain them.
+// text and range of each. deploy/viewloomd.example.toml and deploy/settings.md explain them.
 #pragma once
 
 #include <cstdint>

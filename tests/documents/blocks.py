@@ -12,7 +12,7 @@ import re
 from typing import NamedTuple
 
 COMMANDS = ("", "sh", "bash", "console")
-SNIPPETS = ("cpp", "glsl", "http", "js", "json", "python")
+SNIPPETS = ("cpp", "glsl", "http", "js", "json", "python", "toml")
 TEXTS = ("cmake", "nginx", "text")
 FENCE = re.compile(r"^( *)(```+|~~~+) *(\w*)$")
 REASON = re.compile(r"^\*The tests do not run this block: (\S.*)\.\*$")
@@ -22,7 +22,7 @@ LOOKS_LIKE_A_COMMAND = re.compile(
     r"^(?:\$ |(?:cd|cmake|ctest|curl|docker|export|journalctl|ninja|node|npm|sudo) \S"
     r"|(?:deploy|tests|client|build)/[\w./-]+\.(?:sh|py)\b|/usr/bin/\w+ |[A-Z_]+=\S+ \S"
     r"|viewloomd? (?:-|advise|bench|cast|certificate|doctor|inspect|list|publish|record|render"
-    r"|serve|show|watch)\b)")
+    r"|serve|show|token|watch)\b)")
 
 
 class Command(NamedTuple):

@@ -3,6 +3,7 @@
 
 import os
 import re
+import shlex
 import subprocess
 import time
 
@@ -17,6 +18,8 @@ from short_forms import BESIDE, SUITE, shortened
 from workplace import Workplace
 
 PATIENCE_S = 90
+# One story from nothing to a picture: what a block starts runs until the end of the document.
+STORIES = ("deploy/internet.md", "deploy/lab.md", "deploy/lan.md")
 # After so many failures the rest of a document waits for the next run, so that no test takes long.
 FAILURES_MAX = 3
 ASKS_GIT = re.compile(r"^/usr/bin/python3 tests/tidy|^tests/full\.sh", re.MULTILINE)
@@ -46,6 +49,7 @@ class DocumentRun:
         self._programs = Programs(self._workplace.viewloomd, self._workplace.viewloom)
         self._patience_s = patience_s
         self._kept = {}
+        self._keeps_blocks = document in STORIES
         self.used = []
         self.skipped = ""
         self.counts = {"run": 0, "shortened": 0, "not run": 0, "programs and data": 0}
@@ -90,15 +94,18 @@ class DocumentRun:
                     yield f"{self.document}:{block.line}: {failure}"
                     failed_count += 1
                 finally:
-                    self._kill_kept()
+                    if not self._keeps_blocks:
+                        self._kill_kept()
                 if failed_count == FAILURES_MAX:
                     yield f"{self.document}: the blocks after line {block.line} did not run"
                     break
             try:
+                self._stop_kept()
                 self._served.stop()
             except Failure as failure:
                 yield f"{self.document}: what ran beside the commands: {failure}"
         finally:
+            self._kill_kept()
             self._served.kill()
             self._workplace.close()
 
@@ -106,6 +113,10 @@ class DocumentRun:
         for running in self._kept.values():
             running.kill()
         self._kept = {}
+
+    def _stop_kept(self):
+        while self._kept:
+            self._kept.popitem()[1].stop(self._patience_s)
 
     def _run_block(self, block):
         self._workplace.forget_state()
@@ -124,7 +135,7 @@ class DocumentRun:
 
     def _run_commands(self, block):
         used_before = len(self.used)
-        self._served.prepare(block.text)
+        self._served.prepare(block.text, "server" in self._kept)
         for command in block.commands():
             if SUITE.match(command.text):
                 self._say(command.line, f"recognised: {command.text.split()[0]}")
@@ -134,9 +145,8 @@ class DocumentRun:
             self._run_command(command, text)
             self._say(command.line, f"{time.monotonic() - begun:5.1f} s  {text}",
                       cpu_seconds() - cpu_begun)
-        for running in reversed(list(self._kept.values())):
-            running.stop(self._patience_s)
-        self._kept = {}
+        if not self._keeps_blocks:
+            self._stop_kept()
         self.counts["shortened" if len(self.used) > used_before else "run"] += 1
 
     def _run_command(self, command, text):
@@ -179,6 +189,8 @@ class DocumentRun:
         if sign.role in self._kept:
             self._kept.pop(sign.role).stop(self._patience_s)
         is_there = self._condition(sign)
+        if sign.role == "server":
+            self._served.lists.learn(shlex.split(text))
         running = self._start(text, leaves_state=False)
         self._kept[sign.role or text] = running
         running.wait_for(lambda: is_there(running), f"its sign ({sign.kind} {sign.value})".strip(),

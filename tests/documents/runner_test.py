@@ -12,6 +12,7 @@ from unittest import mock
 
 import planted_programs
 import served
+import server_lists
 import whole_tree
 from blocks import read_blocks
 from document_run import DocumentRun
@@ -21,7 +22,7 @@ from running import Failure
 from short_forms import Short
 
 # The rules are tried while other tests use the default ports: what answers there is not asked.
-NOBODYS_API = "http://127.0.0.1:1/api/"
+NOBODYS_ADDRESS = "127.0.0.1:1"
 REASON = "*The tests do not run this block: it needs Docker.*\n\n"
 
 
@@ -32,12 +33,13 @@ def fenced(text, language=""):
 class PlantedCase(unittest.TestCase):
     """`problems` runs a document. `named` is what was found before, `skipped` why it ended."""
 
-    def problems(self, text, serve=planted_programs.SERVES, patience_s=20):
+    def problems(self, text, serve=planted_programs.SERVES, patience_s=20,
+                 document="README.md"):
         planted = PlantedPrograms(serve)
         self.addCleanup(planted.close)
         served.PORTS = ()
-        served.API = NOBODYS_API
-        run = DocumentRun("README.md", text, planted.checkout, planted.build, patience_s)
+        server_lists.ADDRESS = NOBODYS_ADDRESS
+        run = DocumentRun(document, text, planted.checkout, planted.build, patience_s)
         with contextlib.redirect_stdout(io.StringIO()):
             self.named = list(run.check_names())
             problems = list(run.run())
@@ -128,6 +130,7 @@ class Commands(PlantedCase):
 
     def test_a_program_that_fails_and_broken_data_are_found(self):
         self.expect_one(self.problems(fenced('{"a": [1}', "json")), "is no JSON")
+        self.expect_one(self.problems(fenced("config = ", "toml")), "is no TOML")
         self.expect_one(self.problems(fenced("const a = ;", "js")), "exit code 1", "SyntaxError")
         self.expect_one(self.problems(fenced("float a = b;", "glsl")), "undeclared identifier")
 
@@ -139,6 +142,21 @@ class Servers(PlantedCase):
 
     def test_a_server_serves_until_the_end_of_its_block(self):
         self.assertEqual(self.problems(self.SERVE), [])
+
+    def test_a_story_keeps_its_server_for_the_blocks_that_follow(self):
+        text = fenced("viewloomd serve") + fenced("kill -0 $(cat pid)")
+        serve = "echo $$ >pid\n" + planted_programs.SERVES
+        self.assertEqual(self.problems(text, serve, document="deploy/lab.md"), [])
+        self.expect_one(self.problems(text, serve), "exit code 1")
+
+    def test_a_server_of_a_story_that_fails_after_ctrl_c_is_found(self):
+        self.expect_one(self.problems(self.SERVE, planted_programs.WRONG_EXIT,
+                                      document="deploy/lab.md"), "exit code 3 after Ctrl-C")
+
+    def test_a_setting_that_does_not_exist_is_found(self):
+        self.assertEqual(self.problems(fenced('config = "a"', "toml")), [])
+        self.expect_one(self.problems(fenced("[limits]\nsize = 1", "toml")),
+                        "viewloomd has no setting limits.size")
 
     def test_a_server_that_never_gets_ready_is_found_and_ended(self):
         problems = self.problems(self.SERVE, planted_programs.NEVER_READY, patience_s=1)
@@ -164,30 +182,32 @@ class Servers(PlantedCase):
 class HalfAnswers(unittest.TestCase):
     """A server that ends hangs up, before its answer or within it: then it has no displays."""
 
-    def counts_of(self, answer):
+    def displays_of(self, answer):
         with socket.create_server(("127.0.0.1", 0)) as listener:
             def answer_one():
                 connection, _ = listener.accept()
                 with connection:
                     connection.recv(65536)
                     connection.sendall(answer)
-            thread = threading.Thread(target=answer_one)
+            thread = threading.Thread(target=answer_one, daemon=True)
             thread.start()
-            with mock.patch.object(served, "API", f"http://127.0.0.1:{listener.getsockname()[1]}/"):
-                counts = served.Served.atlas_counts(served.Served)
+            address = f"127.0.0.1:{listener.getsockname()[1]}"
+            with mock.patch.object(server_lists, "ADDRESS", address):
+                displays = server_lists.ServerLists(workplace=None).read("displays")
             thread.join()
-        return counts
+        return displays
 
     def test_no_displays_are_listed(self):
         head = b"HTTP/1.1 200 OK\r\n"
         for answer in (b"", b"HTTP/1.1 2", head + b"\r\n", head + b"\r\n{\"displays\": [",
                        head + b"Content-Length: 99\r\n\r\n{\"displays\""):
             with self.subTest(answer):
-                self.assertEqual(self.counts_of(answer), {})
+                self.assertEqual(self.displays_of(answer), [])
 
     def test_those_of_a_whole_answer_are(self):
         body = b'{"displays": [{"id": "7", "atlas_count": 3}]}'
-        self.assertEqual(self.counts_of(b"HTTP/1.1 200 OK\r\n\r\n" + body), {"7": 3})
+        self.assertEqual(self.displays_of(b"HTTP/1.1 200 OK\r\n\r\n" + body),
+                         [{"id": "7", "atlas_count": 3}])
 
 
 class Reading(unittest.TestCase):

@@ -1,17 +1,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Things that a document expects beside its commands: the server with the stream demo, a screen,
-Looking Glass Bridge. Each starts when a block needs it."""
+Looking Glass Bridge, a front. Each starts when a block needs it."""
 
-import http.client
-import json
 import pathlib
 import re
 import socket
 import sys
 import time
-import urllib.request
 
+from front_beside import FrontBeside
 from running import Failure, Running
+from server_lists import ServerLists
 
 FOLDER = pathlib.Path(__file__).parent
 sys.path[:0] = [str(FOLDER.parent / "show"), str(FOLDER.parent / "web")]
@@ -21,7 +20,6 @@ from screen import Screen  # noqa: E402
 import samples  # noqa: E402
 
 PORTS = (50051, 8080)
-API = "http://127.0.0.1:8080/api/"
 BRIDGE_PORT = 33334
 PORT_PATIENCE_S = 60
 PATIENCE_S = 60
@@ -30,6 +28,7 @@ STARTS_A_SERVER = re.compile(r"\bviewloomd (serve|doctor)\b|^(\$ )?deploy/demo\.
 CALLS_A_SERVER = re.compile(r"\bviewloom (publish|watch (?!--from)|show|record|cast|list|advise)\b"
                             r"|//127\.0\.0\.1:8080|viewloom\.(aio\.)?connect\(|examples/\w+\.py"
                             r"|watch_quilt\.js|^/(still|stream|ws)\b", re.MULTILINE)
+BEHIND_A_FRONT = re.compile(r"https://viewloom\.example")
 PUBLISHES_DEMO = re.compile(r"\bviewloom publish (?!.*--stream)|publish\(\"demo\"\)")
 
 
@@ -53,14 +52,18 @@ def wait_for_free_ports(ports, patience_s=PORT_PATIENCE_S):
 class Served:
     def __init__(self, workplace):
         self._workplace = workplace
-        self._server = self._demo = self._screen = self.bridge = None
+        self._server = self._demo = self._screen = self._front = self.bridge = None
+        self.lists = ServerLists(workplace)
 
-    def prepare(self, text):
-        """Starts the things that a block needs, and stops those that are in its way."""
+    def prepare(self, text, has_server=False):
+        """Starts the things that a block needs, and stops those that are in its way. has_server:
+        one of the document is running."""
+        if BEHIND_A_FRONT.search(text) and not self._front:
+            self._front = FrontBeside(PORTS)
         if STARTS_A_SERVER.search(text):
             self._stop_server()
             wait_for_free_ports(PORTS)
-        elif CALLS_A_SERVER.search(text):
+        elif CALLS_A_SERVER.search(text) and not has_server:
             self._start_server()
             if PUBLISHES_DEMO.search(text):
                 self._stop_demo()
@@ -74,10 +77,11 @@ class Served:
             self.bridge = FakeBridge(port=BRIDGE_PORT)
 
     def environment(self):
-        if not self._screen:
-            return {}
-        return {name: value for name, value in self._screen.environment().items()
-                if name in ("DISPLAY", "SDL_VIDEODRIVER", "LIBGL_ALWAYS_SOFTWARE")}
+        found = dict(self._front.environment) if self._front else {}
+        if self._screen:
+            found.update({name: value for name, value in self._screen.environment().items()
+                          if name in ("DISPLAY", "SDL_VIDEODRIVER", "LIBGL_ALWAYS_SOFTWARE")})
+        return found
 
     def has_picture(self):
         """True if the screen shows something other than a black desktop."""
@@ -91,22 +95,13 @@ class Served:
                 raise Failure("the screen still shows a picture of the command before")
             time.sleep(0.1)
 
-    @staticmethod
-    def _listed(what):
-        """Nothing while the server starts or ends: it may hang up before its answer."""
-        try:
-            with urllib.request.urlopen(API + what, timeout=5) as answer:
-                return json.load(answer)[what]
-        except (OSError, http.client.HTTPException, json.JSONDecodeError):
-            return []
-
     def received_count(self, stream):
-        return next((entry["received_count"] for entry in self._listed("streams")
+        return next((entry["received_count"] for entry in self.lists.read("streams")
                      if entry["name"] == stream), 0)
 
     def atlas_counts(self):
         """How many atlases each watched display has had."""
-        return {entry["id"]: entry["atlas_count"] for entry in self._listed("displays")}
+        return {entry["id"]: entry["atlas_count"] for entry in self.lists.read("displays")}
 
     def wait_for_stream(self, command, stream):
         before = self.received_count(stream)
@@ -122,6 +117,7 @@ class Served:
         if self._server:
             return
         wait_for_free_ports(PORTS)
+        self.lists.forget()
         self._server = Running("viewloomd serve", self._workplace)
         self._server.wait_for(lambda: "listening" in self._server.said(), "its addresses",
                               PATIENCE_S)
@@ -146,8 +142,10 @@ class Served:
         for one in (self._demo, self._server):
             if one:
                 one.kill()
+        if self._front:
+            self._front.close()
         if self._screen:
             self._screen.close()
         if self.bridge:
             self.bridge.stop()
-        self._demo = self._server = self._screen = self.bridge = None
+        self._demo = self._server = self._screen = self._front = self.bridge = None

@@ -4,7 +4,9 @@
 import json
 import re
 import shlex
+import subprocess
 import textwrap
+import tomllib
 
 from running import Failure, Running
 
@@ -132,5 +134,26 @@ def fetch_addresses(_, text, workplace):
             _run(f"curl -gsSL -o answer {url}\ntest -s answer", workplace)
 
 
+def check_settings(_, text, workplace):
+    """Settings of the server: each is an option of `viewloomd serve`."""
+    try:
+        found = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as problem:
+        raise Failure(f"is no TOML: {problem}\n{text}") from None
+    known = subprocess.run([workplace.viewloomd, "serve", "--help"], check=True,
+                           capture_output=True, text=True, timeout=PATIENCE_S).stdout.split()
+    for name in _names(found):
+        if f"--{name}" not in known:
+            raise Failure(f"viewloomd has no setting {name}")
+
+
+def _names(table, before=""):
+    for name, value in table.items():
+        if isinstance(value, dict):
+            yield from _names(value, f"{before}{name}.")
+        else:
+            yield before + name
+
+
 CHECKS = {"cpp": compile_cpp, "glsl": compile_glsl, "http": fetch_addresses,
-          "js": parse_javascript, "json": read_json, "python": run_python}
+          "js": parse_javascript, "json": read_json, "python": run_python, "toml": check_settings}

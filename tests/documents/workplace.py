@@ -106,6 +106,10 @@ class Workplace:
     def environment(self, **more):
         return {**self._environment, **more}
 
+    def folder(self):
+        """The folder in which the next command starts."""
+        return pathlib.Path((self.state / "folder").read_text(encoding="utf-8").strip())
+
     def forget_state(self):
         """Opens a new terminal: `cd` of the commands before counts no longer, `export` does."""
         (self.state / "folder").write_text(str(self.root), encoding="utf-8")

@@ -75,7 +75,7 @@ class InstalledTree(unittest.TestCase):
     def test_the_unit_runs_the_installed_server_with_the_installed_settings(self):
         unit = (PREFIX / "lib/systemd/system/viewloomd.service").read_text(encoding="utf-8")
         self.assertIn(f"\nExecStart={PREFIX}/bin/viewloomd serve ", unit)
-        for name in ("viewloomd.example.toml", "haproxy.cfg", "nginx.conf"):
+        for name in ("viewloomd.example.toml", "haproxy.cfg", "nginx.conf", "renew_front.sh"):
             self.assertTrue((PREFIX / "share/viewloom" / name).is_file(), name)
 
     @unittest.skipUnless(shutil.which("systemd-analyze"), "there is no systemd-analyze")

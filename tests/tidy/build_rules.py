@@ -5,6 +5,7 @@ import os
 import re
 
 from layering import INCLUDE, resolve
+from link_rules import linked_files
 from tree import Finding
 
 PICTURES = (".png", ".jpg", ".jpeg")
@@ -13,28 +14,10 @@ GENERATED = re.compile(r"(\.pb\.(h|cc)|_pb2(_grpc)?\.py|\.spv|\.o|\.a|\.so|\.pyc
 SOURCES = (".cpp", ".h", ".comp", ".vert", ".frag", ".glsl", ".proto", ".py", ".js", ".css",
            ".html")
 EMBEDDED = (".html", ".css", ".js", ".vert", ".frag")
-MARKDOWN_LINK = re.compile(r"\]\(([^)\s]+)\)|<img[^>]*src=\"([^\"]+)\"")
-
-
-def linked_files(tree, path):
-    """What the links of a Markdown file name, relative to the root, with the line of each."""
-    for number, line in enumerate(tree.lines(path), 1):
-        for match in MARKDOWN_LINK.finditer(line):
-            target = (match.group(1) or match.group(2)).split("#")[0]
-            if target and not re.match(r"[a-z]+:", target):
-                joined = os.path.join(os.path.dirname(path), target)
-                yield number, target, os.path.normpath(joined)
-
-
-def check_links(tree):
-    for path in tree.text_files(".md"):
-        for number, target, full in linked_files(tree, path):
-            if full not in tree and not tree.has_folder(full) and full != ".":
-                yield Finding(path, number, "link", f"{target} is not there")
 
 
 def check_artefacts(tree):
-    shown = {full for path in tree.text_files(".md") for _, _, full in linked_files(tree, path)}
+    shown = linked_files(tree)
     for path in tree.paths():
         if GENERATED.search(path):
             yield Finding(path, 0, "generated", "belongs in the build folder")
@@ -136,6 +119,5 @@ def check_globs(tree):
 
 
 def check(tree):
-    for rule in (check_links, check_artefacts, check_dead, check_own_header,
-                 check_globs):
+    for rule in (check_artefacts, check_dead, check_own_header, check_globs):
         yield from rule(tree)

@@ -25,9 +25,9 @@ class Table(NamedTuple):
 
 
 TABLES = (
-    Table("metric", "deploy/README.md", "## Health and metrics", "server/metrics/",
+    Table("metric", "deploy/metrics.md", "## Metrics", "server/metrics/",
           re.compile(r'"(viewloom_[a-z_]+)"'), "viewloom_", re.compile(r"\{")),
-    Table("setting", "deploy/README.md", "## Settings", "server/config/",
+    Table("setting", "deploy/settings.md", "## Settings", "server/config/",
           re.compile(r'\{"([a-z][a-z_.]*)",\s*"[a-z]*",\s*"[A-Z]'), "", re.compile(r"$")),
     Table("address", "proto/README.md", "## Web addresses", "server/access/operations.h",
           re.compile(r'string_view k\w+ = "(/[a-z/]*)"'),
@@ -72,8 +72,8 @@ def check_table(tree, table):
 
 
 def check_labels(tree):
-    """Each value of a label of the metrics stands in the operators' document."""
-    document = "deploy/README.md"
+    """Each value of a label of the metrics stands in the document of the metrics."""
+    document = "deploy/metrics.md"
     text = "\n".join(tree.lines(document)) if document in tree else ""
     for path in tree.text_files(".cpp"):
         if not path.startswith("server/metrics/"):

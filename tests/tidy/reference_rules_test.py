@@ -19,18 +19,22 @@ inline constexpr std::string_view kWebSocket = "/ws";
 inline constexpr std::string_view kStills = "/still/";
 inline constexpr std::string_view kHealthPage = "/healthz";
 '''
-DEPLOY = '''# Running
+SETTINGS_PAGE = '''# Settings and limits
 ## Settings
 | Setting | Default |
 |---|---|
 | `device` | `""` |
 | `grpc.keepalive_s` | 10 |
-## Health and metrics
-| `http://HOST/healthz` | 200 |
-| `viewloom_frames_total` | counter |
-| `viewloom_trips_total{way}` | `there`, `back` |
 ## Limits
 | `other` | 1 |
+'''
+METRICS_PAGE = '''# Health and metrics
+| `http://HOST/healthz` | 200 |
+## Metrics
+| `viewloom_frames_total` | counter |
+| `viewloom_trips_total{way}` | `there`, `back` |
+## Questions
+| Is it fast? | yes |
 '''
 PROTO = '''## Web addresses
 | `/` | the page |
@@ -42,7 +46,8 @@ PROTO = '''## Web addresses
 '''
 CLEAN = {"server/metrics/metrics.cpp": METRICS, "server/config/settings.cpp": SETTINGS,
          "server/access/operations.h": OPERATIONS,
-         "deploy/README.md": DEPLOY, "proto/README.md": PROTO}
+         "deploy/settings.md": SETTINGS_PAGE, "deploy/metrics.md": METRICS_PAGE,
+         "proto/README.md": PROTO}
 
 
 class References(unittest.TestCase):
@@ -66,9 +71,10 @@ class References(unittest.TestCase):
 
     def test_what_a_document_leaves_out_is_found_in_the_code(self):
         for document, row, path in (
-                ("deploy/README.md", "| `viewloom_frames_total` | counter |\n",
+                ("deploy/metrics.md", "| `viewloom_frames_total` | counter |\n",
                  "server/metrics/metrics.cpp"),
-                ("deploy/README.md", "| `grpc.keepalive_s` | 10 |\n", "server/config/settings.cpp"),
+                ("deploy/settings.md", "| `grpc.keepalive_s` | 10 |\n",
+                 "server/config/settings.cpp"),
                 ("proto/README.md", "| `/still/STREAM/PRESET` | a picture |\n",
                  "server/access/operations.h"),
                 ("proto/README.md", "| `/ws?stream=STREAM&...` | atlases |\n",
@@ -77,8 +83,9 @@ class References(unittest.TestCase):
 
     def test_what_is_gone_is_found_in_the_document(self):
         for document, before, row in (
-                ("deploy/README.md", "## Limits", "| `viewloom_gone_total` | counter |\n## Limits"),
-                ("deploy/README.md", "## Health", "| `gone.setting` | 1 |\n## Health"),
+                ("deploy/metrics.md", "## Questions",
+                 "| `viewloom_gone_total` | counter |\n## Questions"),
+                ("deploy/settings.md", "## Limits", "| `gone.setting` | 1 |\n## Limits"),
                 ("proto/README.md", "### Which", "| `/api/gone` | a list |\n### Which")):
             self.assertEqual(self.broken(document, before, row), [(document, "reference")], row)
 

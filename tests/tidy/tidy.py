@@ -12,6 +12,7 @@ import file_lengths
 import include_graph
 import language_rules
 import layering
+import link_rules
 import proto_rules
 import reference_rules
 import schedule_rules
@@ -27,8 +28,8 @@ def main():
         include_graph.write(tree, sys.argv[3])
         return 0
     findings = sorted(finding for rules in (build_rules, include_graph, language_rules, layering,
-                                            proto_rules, reference_rules, schedule_rules,
-                                            text_rules, user_texts, version_rules)
+                                            link_rules, proto_rules, reference_rules,
+                                            schedule_rules, text_rules, user_texts, version_rules)
                       for finding in rules.check(tree))
     for finding in findings:
         print(finding)

@@ -239,13 +239,6 @@ class Build(unittest.TestCase):
         self.assertEqual(rules_broken(build_rules.check, {"CMakeLists.txt": "file(GLOB x *.cpp)"}),
                          [("CMakeLists.txt", "glob")])
 
-    def test_a_broken_link_is_found(self):
-        files = {"README.md": "[a](deploy/a.md) [b](deploy/) [c](https://example.org) [d](#x)",
-                 "deploy/a.md": "[back](../README.md)"}
-        self.assertEqual(rules_broken(build_rules.check, files), [])
-        files["deploy/a.md"] = "[back](README.md)"
-        self.assertEqual(rules_broken(build_rules.check, files), [("deploy/a.md", "link")])
-
     def test_only_shown_pictures_may_be_binary(self):
         self.assertEqual(rules_broken(build_rules.check, {"a.png": b"\x89PNG\0"}),
                          [("a.png", "binary")])
