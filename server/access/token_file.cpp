@@ -11,7 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include <nlohmann/json.hpp>
@@ -60,29 +59,12 @@ absl::StatusOr<std::string> textOfTokenFile(const std::string& path) {
   return readSmallFile(path, kEditedBytesMax);
 }
 
-// Owner of the file; of its folder while there is none.
-std::optional<struct stat> ownerOf(const std::filesystem::path& path) {
-  struct stat status {};
-  if (lstat(path.c_str(), &status) == 0) return status;
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  if (stat(folder.c_str(), &status) == 0) return status;
-  return std::nullopt;
-}
-
 absl::Status replaceTokenFile(const std::string& path, std::string_view text) {
-  const std::optional<struct stat> owner = ownerOf(path);
   absl::StatusOr<std::unique_ptr<OutputFile>> file = OutputFile::create(path, kOwnerOnly);
   VIEWLOOM_RETURN_IF_ERROR(file.status());
   VIEWLOOM_RETURN_IF_ERROR((*file)->write(text));
-  VIEWLOOM_RETURN_IF_ERROR((*file)->replace());
-  // Root changes the file of a server that runs as another user.
-  const bool is_foreign = owner && geteuid() == 0 && owner->st_uid != 0;
-  if (!is_foreign || lchown(path.c_str(), owner->st_uid, owner->st_gid) == 0) {
-    return absl::OkStatus();
-  }
-  return absl::FailedPreconditionError(strCat(printable(path), ": cannot be given to its owner (",
-                                              std::strerror(errno),
-                                              "); give it to the user of viewloomd with chown"));
+  VIEWLOOM_RETURN_IF_ERROR((*file)->keepOwner());
+  return (*file)->replace();
 }
 
 bool isLineOf(const std::string& line, std::string_view id) {

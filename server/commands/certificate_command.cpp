@@ -68,7 +68,8 @@ absl::Status place(OutputFile& file, const std::filesystem::path& path, bool is_
              "folder with --out. Clients have to pin a new certificate anew"));
 }
 
-// Both files, or an error before either has its name. The key is for its owner alone.
+// Both files, or an error before either has its name. The key is for its owner alone: the user of
+// the server, if the folder is that user's.
 absl::Status writeFiles(const MadeCertificate& made, const std::filesystem::path& certificate_path,
                         const std::filesystem::path& key_path, bool is_replaced) {
   const mode_t before = umask(kForOwnerAlone);
@@ -79,6 +80,8 @@ absl::Status writeFiles(const MadeCertificate& made, const std::filesystem::path
   VIEWLOOM_RETURN_IF_ERROR(certificate.status());
   VIEWLOOM_RETURN_IF_ERROR((*key)->write(made.key_pem));
   VIEWLOOM_RETURN_IF_ERROR((*certificate)->write(made.certificate_pem));
+  VIEWLOOM_RETURN_IF_ERROR((*key)->keepOwner());
+  VIEWLOOM_RETURN_IF_ERROR((*certificate)->keepOwner());
   VIEWLOOM_RETURN_IF_ERROR(place(**key, key_path, is_replaced));
   return place(**certificate, certificate_path, is_replaced);
 }

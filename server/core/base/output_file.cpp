@@ -105,6 +105,19 @@ absl::Status OutputFile::cutTo(uint64_t bytes) {
   return absl::OkStatus();
 }
 
+absl::Status OutputFile::keepOwner() {
+  if (geteuid() != 0) return absl::OkStatus();
+  const auto folder = path_.has_parent_path() ? path_.parent_path() : std::filesystem::path(".");
+  struct stat owner {};
+  if (lstat(path_.c_str(), &owner) != 0 && stat(folder.c_str(), &owner) != 0) return failed(errno);
+  if (owner.st_uid == 0 || fchown(descriptor_, owner.st_uid, owner.st_gid) == 0) {
+    return absl::OkStatus();
+  }
+  return absl::FailedPreconditionError(strCat(path_.string(), ": cannot be given to its owner (",
+                                              std::strerror(errno),
+                                              "); write it as the user of viewloomd"));
+}
+
 absl::Status OutputFile::replace() {
   VIEWLOOM_RETURN_IF_ERROR(checkReplaceable(path_));
   if (rename(partial_path_.c_str(), path_.c_str()) != 0) return failed(errno);

@@ -36,6 +36,9 @@ class OutputFile {
   absl::Status cutTo(uint64_t bytes);
   uint64_t size() const { return size_; }
 
+  // Gives a file of root to the owner of the one that it replaces; of the folder while there is
+  // none. A service that runs as another user can then read it. Does nothing for other users.
+  absl::Status keepOwner();
   // Moves the file to its path. It replaces an older regular file. Call once.
   absl::Status replace();
   // Moves the file to its path if nothing is there. Returns false if something is there, which

@@ -43,6 +43,27 @@ class OutputFileTest : public testing::Test {
   fs::path folder_;
 };
 
+TEST_F(OutputFileTest, filesOfRootBelongToTheOwnerOfTheirFolderOrOfTheFileBefore) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root gives files away";
+  constexpr uid_t kService = 1234;
+  constexpr uid_t kOther = 1235;
+  const fs::path path = folder_ / "a.txt";
+  const auto owner_of_next = [&path] {
+    const auto out = OutputFile::create(path);
+    EXPECT_EQ((*out)->keepOwner(), absl::OkStatus());
+    EXPECT_EQ((*out)->replace(), absl::OkStatus());
+    struct stat status {};
+    EXPECT_EQ(lstat(path.c_str(), &status), 0);
+    return status.st_uid;
+  };
+  EXPECT_EQ(owner_of_next(), 0U);
+  fs::remove(path);
+  ASSERT_EQ(chown(folder_.c_str(), kService, kService), 0);
+  EXPECT_EQ(owner_of_next(), kService);
+  ASSERT_EQ(chown(path.c_str(), kOther, kOther), 0);
+  EXPECT_EQ(owner_of_next(), kOther);
+}
+
 TEST_F(OutputFileTest, replacesARegularFileWhenItIsComplete) {
   const fs::path path = folder_ / "a.txt";
   ASSERT_EQ(write(path, "old"), absl::OkStatus());
