@@ -18,8 +18,8 @@ from short_forms import BESIDE, SUITE, shortened
 from workplace import Workplace
 
 PATIENCE_S = 90
-# One story from nothing to a picture: what a block starts runs until the end of the document.
-STORIES = ("deploy/internet.md", "deploy/lab.md", "deploy/lan.md")
+# One story each: what a block starts runs until the end of the document.
+STORIES = ("deploy/access.md", "deploy/internet.md", "deploy/lab.md", "deploy/lan.md")
 # After so many failures the rest of a document waits for the next run, so that no test takes long.
 FAILURES_MAX = 3
 ASKS_GIT = re.compile(r"^/usr/bin/python3 tests/tidy|^tests/full\.sh", re.MULTILINE)

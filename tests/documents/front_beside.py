@@ -21,9 +21,9 @@ class FrontBeside:
         if not front.program_of(KIND):
             raise Failure("there is no haproxy: install it with deploy/setup.sh --dev")
         self._front = front.Front(KIND, Address(*ports)).__enter__()
-        certificate = os.path.join(self._front.folder.name, "front.crt")
-        self.environment = {"FRONT_PORT": str(self._front.port), "CURL_CA_BUNDLE": certificate,
-                            "VIEWLOOM_SERVER_CA": certificate}
+        self.environment = {
+            "FRONT_PORT": str(self._front.port),
+            "VIEWLOOM_SERVER_CA": os.path.join(self._front.folder.name, "front.crt")}
 
     def close(self):
         self._front.__exit__()

@@ -135,13 +135,13 @@ def fetch_addresses(_, text, workplace):
 
 
 def check_settings(_, text, workplace):
-    """Settings of the server: each is an option of `viewloomd serve`."""
+    """Settings of the server: each is an option of `viewloomd`."""
     try:
         found = tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
         raise Failure(f"is no TOML: {problem}\n{text}") from None
-    known = subprocess.run([workplace.viewloomd, "serve", "--help"], check=True,
-                           capture_output=True, text=True, timeout=PATIENCE_S).stdout.split()
+    known = subprocess.run([workplace.viewloomd, "--help"], check=True, capture_output=True,
+                           text=True, timeout=PATIENCE_S).stdout.split()
     for name in _names(found):
         if f"--{name}" not in known:
             raise Failure(f"viewloomd has no setting {name}")
