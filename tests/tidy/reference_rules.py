@@ -29,7 +29,7 @@ TABLES = (
           re.compile(r'"(viewloom_[a-z_]+)"'), "viewloom_", re.compile(r"\{")),
     Table("setting", "deploy/settings.md", "## Settings", "server/config/",
           re.compile(r'\{"([a-z][a-z_.]*)",\s*"[a-z]*",\s*"[A-Z]'), "", re.compile(r"$")),
-    Table("address", "proto/README.md", "## Web addresses", "server/access/operations.h",
+    Table("address", "proto/web.md", "## Addresses", "server/access/operations.h",
           re.compile(r'string_view k\w+ = "(/[a-z/]*)"'),
           "/", re.compile(r"STREAM|\?"), also=("/",)),
 )

@@ -36,7 +36,7 @@ METRICS_PAGE = '''# Health and metrics
 ## Questions
 | Is it fast? | yes |
 '''
-PROTO = '''## Web addresses
+WEB_PAGE = '''## Addresses
 | `/` | the page |
 | `/healthz` | 200 |
 | `/still/STREAM/PRESET` | a picture |
@@ -47,7 +47,7 @@ PROTO = '''## Web addresses
 CLEAN = {"server/metrics/metrics.cpp": METRICS, "server/config/settings.cpp": SETTINGS,
          "server/access/operations.h": OPERATIONS,
          "deploy/settings.md": SETTINGS_PAGE, "deploy/metrics.md": METRICS_PAGE,
-         "proto/README.md": PROTO}
+         "proto/web.md": WEB_PAGE}
 
 
 class References(unittest.TestCase):
@@ -75,9 +75,9 @@ class References(unittest.TestCase):
                  "server/metrics/metrics.cpp"),
                 ("deploy/settings.md", "| `grpc.keepalive_s` | 10 |\n",
                  "server/config/settings.cpp"),
-                ("proto/README.md", "| `/still/STREAM/PRESET` | a picture |\n",
+                ("proto/web.md", "| `/still/STREAM/PRESET` | a picture |\n",
                  "server/access/operations.h"),
-                ("proto/README.md", "| `/ws?stream=STREAM&...` | atlases |\n",
+                ("proto/web.md", "| `/ws?stream=STREAM&...` | atlases |\n",
                  "server/access/operations.h")):
             self.assertEqual(self.broken(document, row, ""), [(path, "reference")], row)
 
@@ -86,7 +86,7 @@ class References(unittest.TestCase):
                 ("deploy/metrics.md", "## Questions",
                  "| `viewloom_gone_total` | counter |\n## Questions"),
                 ("deploy/settings.md", "## Limits", "| `gone.setting` | 1 |\n## Limits"),
-                ("proto/README.md", "### Which", "| `/api/gone` | a list |\n### Which")):
+                ("proto/web.md", "### Which", "| `/api/gone` | a list |\n### Which")):
             self.assertEqual(self.broken(document, before, row), [(document, "reference")], row)
 
 
