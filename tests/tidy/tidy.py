@@ -8,6 +8,7 @@ tidy.py ROOT --graph FILE        draws which folder includes which instead, as .
 import sys
 
 import build_rules
+import coroutine_rules
 import file_lengths
 import include_graph
 import language_rules
@@ -27,9 +28,10 @@ def main():
     if sys.argv[2:3] == ["--graph"]:
         include_graph.write(tree, sys.argv[3])
         return 0
-    findings = sorted(finding for rules in (build_rules, include_graph, language_rules, layering,
-                                            link_rules, proto_rules, reference_rules,
-                                            schedule_rules, text_rules, user_texts, version_rules)
+    findings = sorted(finding for rules in (build_rules, coroutine_rules, include_graph,
+                                            language_rules, layering, link_rules, proto_rules,
+                                            reference_rules, schedule_rules, text_rules, user_texts,
+                                            version_rules)
                       for finding in rules.check(tree))
     for finding in findings:
         print(finding)
