@@ -83,7 +83,8 @@ Connection::Connection(WebContext& context, tcp::socket socket, ConnectionPlace 
       strand_(socket.get_executor()),
       tls_(std::move(tls)),
       stream_(std::move(socket)),
-      peer_(addressOf(stream_.socket())) {
+      peer_(addressOf(stream_.socket())),
+      host_(peer_) {
   ErrorCode ignored;  // a socket that is gone already shows at the first read
   stream_.socket().set_option(tcp::no_delay(true), ignored);
   context_.metrics.http_connections.add(1);
@@ -97,6 +98,7 @@ HttpRequest Connection::requestOf(const http::request<http::empty_body>& request
   return {.method = text(request.method_string()),
           .target = text(request.target()),
           .peer = peer_,
+          .client_host = host_,
           .host = text(request[http::field::host]),
           .if_none_match = text(request[http::field::if_none_match]),
           .authorization = text(request[http::field::authorization]),
@@ -193,7 +195,10 @@ net::awaitable<bool> Connection::secure() {
   if (error || !speaks_tls) co_return false;
   idle_ = false;
   co_await stream_.secure(std::exchange(tls_, nullptr), buffer_, error);
-  co_return !error;
+  if (error) co_return false;
+  // Clients with one certificate are one user's, wherever they run.
+  if (std::string subject = stream_.clientSubject(); !subject.empty()) host_ = std::move(subject);
+  co_return true;
 }
 
 // People write addresses without https://, and browsers then begin without TLS.
@@ -245,7 +250,7 @@ net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& reques
     co_await write(errorReply(caller.status()), parser, false, error);
     co_return;
   }
-  const std::string identity = caller->shareName(peer_);
+  const std::string identity = caller->shareName(host_);
   const auto viewer = std::make_shared<Viewer>(context_, *std::move(caller), std::move(stream_),
                                                url->parameters, identity);
   live_reader_ = viewer;
@@ -258,7 +263,7 @@ net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& reques
 net::awaitable<bool> Connection::play(HttpReply& reply) {
   const Caller& caller = reply.live->caller;
   const auto player =
-      std::make_shared<MultipartStream>(context_, caller, strand_, caller.shareName(peer_));
+      std::make_shared<MultipartStream>(context_, caller, strand_, caller.shareName(host_));
   if (const absl::Status status = player->subscribe(reply.live->request); !status.ok()) {
     reply = errorReply(status);
     co_return false;

@@ -79,6 +79,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::shared_ptr<ssl::context> tls_;  // null once it is in use, or where there is none
   WebStream stream_;                   // until a live reader has it
   const std::string peer_;             // address of the client; empty if it is gone already
+  std::string host_;                   // the same, or the subject of the client's certificate
   beast::flat_buffer buffer_;
   std::shared_ptr<LiveReader> live_reader_;
   bool idle_ = false;  // waits for a request of which nothing has come

@@ -12,6 +12,8 @@ struct HttpRequest {
   std::string method;
   std::string target;
   std::string peer;  // address of the client
+  // The same, or the subject of the client's certificate: whose share the request takes.
+  std::string client_host;
   // Headers; empty when not given.
   std::string host;
   std::string if_none_match;

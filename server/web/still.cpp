@@ -73,7 +73,7 @@ net::awaitable<HttpReply> answerStill(WebContext& context, HttpRequest request, 
   QuiltAddress& address = picture->address;
   if (!address.redirect.empty()) co_return redirectReply(address.redirect);
   co_return co_await takeAtlas(context, std::move(address),
-                               picture->caller.shareName(request.peer));
+                               picture->caller.shareName(request.client_host));
 }
 
 }  // namespace viewloom

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/web_stream.h"
 
+#include "certificates/certificate.h"
+
 namespace viewloom {
 
 beast::tcp_stream& WebStream::transport() {
@@ -25,6 +27,13 @@ net::awaitable<void> WebStream::finish(std::chrono::milliseconds limit) {
     co_await secured->async_shutdown(into(ignored));
   }
   socket().shutdown(tcp::socket::shutdown_send, ignored);
+}
+
+std::string WebStream::clientSubject() {
+  auto* const secured = std::get_if<Secured>(&stream_);
+  if (secured == nullptr) return "";
+  OpensslPtr<X509> shown(SSL_get1_peer_certificate(secured->native_handle()));
+  return shown == nullptr ? "" : Certificate(std::move(shown)).subject();
 }
 
 void teardown(beast::role_type role, WebStream& stream, ErrorCode& error) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <utility>
 #include <variant>
 
@@ -22,6 +23,9 @@ class WebStream {
   executor_type get_executor() { return transport().get_executor(); }
   tcp::socket& socket() { return transport().socket(); }
   void close() { transport().close(); }
+  // Subject of the certificate with which the client has proven itself, as Certificate::subject
+  // writes it; empty = none.
+  std::string clientSubject();
 
   // The clock of what begins after it: reads and writes that take longer fail.
   void expiresAfter(std::chrono::milliseconds limit) { transport().expires_after(limit); }
