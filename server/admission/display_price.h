@@ -6,6 +6,7 @@
 #include <string>
 
 #include "admission/memory_budget.h"
+#include "base/send_queue.h"
 #include "display/display_spec.h"
 
 namespace viewloom {
@@ -35,7 +36,8 @@ absl::StatusOr<Reservation> admitDisplay(MemoryBudget& budget, const DisplaySpec
 absl::StatusOr<Reservation> admitViewer(MemoryBudget& budget, const DisplaySpec& spec,
                                         const EncodingSpec& encoding, const std::string& identity);
 
-// A stream's name, a publisher's call, or a connection before it asks for anything.
-inline constexpr uint64_t kConnectionBytes = uint64_t{64} << 10;
+// A publisher's call, or a connection whatever it asks for: its buffers here, and what the kernel
+// holds of it.
+inline constexpr uint64_t kConnectionBytes = (uint64_t{64} << 10) + kSendQueueBytes;
 
 }  // namespace viewloom

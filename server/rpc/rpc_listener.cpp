@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/send_queue.h"
 #include "base/str_cat.h"
 #include "base/thread_name.h"
 #include "rpc/listening_sockets.h"
@@ -31,6 +32,7 @@ void setConnectionOptions(int fd, std::chrono::milliseconds acknowledge_time) {
   const auto limit_ms = static_cast<int>(acknowledge_time.count());
   setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
   setsockopt(fd, IPPROTO_TCP, TCP_USER_TIMEOUT, &limit_ms, sizeof limit_ms);
+  limitSendQueue(fd);
 }
 
 }  // namespace

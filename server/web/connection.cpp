@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "admission/out_of_memory.h"
+#include "base/send_queue.h"
 #include "base/str_cat.h"
 #include "web/admission.h"
 #include "web/multipart_stream.h"
@@ -87,6 +88,7 @@ Connection::Connection(WebContext& context, tcp::socket socket, ConnectionPlace 
       host_(peer_) {
   ErrorCode ignored;  // a socket that is gone already shows at the first read
   stream_.socket().set_option(tcp::no_delay(true), ignored);
+  limitSendQueue(stream_.socket().native_handle());
   context_.metrics.http_connections.add(1);
 }
 

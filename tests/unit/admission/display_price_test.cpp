@@ -56,7 +56,7 @@ TEST(AdmitDisplay, saysHowLargeAnAtlasWouldFit) {
 }
 
 TEST(AdmitViewer, countsTheAtlasThatIsBeingWritten) {
-  MemoryBudget budget(1'000'000);
+  MemoryBudget budget(1'200'000);
   const DisplaySpec spec = quiltOf(1024);
   const auto first = admitViewer(budget, spec, {}, "10.0.0.7");
   ASSERT_TRUE(first.ok());
