@@ -65,6 +65,7 @@ AccessControl::AccessControl(AccessOptions options, const Clock& clock)
     : options_(std::move(options)),
       clock_(clock),
       audit_(options_.audit_file, options_.now_s),
+      quotas_(clock),
       tokens_file_(watch(options_.token_file, kTokenFileBytesMax)),
       keys_file_(watch(options_.jwks_file, kKeyFileBytesMax)),
       sources_(std::make_shared<const Sources>()) {
@@ -151,6 +152,7 @@ absl::StatusOr<Caller> AccessControl::grant(std::string_view operation, std::str
   const std::optional<Operation> known = operationOf(operation);
   absl::Status status = identity.status();
   if (status.ok()) status = checkRole(**identity, known);
+  if (status.ok() && known->reach == Reach::kStream) status = quotas_.checkRates(**identity);
   AuditEvent event{.outcome = AuditOutcome::kRefused,
                    .operation = known ? known->name : "unknown",
                    .peer = peer,

@@ -16,6 +16,7 @@
 #include "access/identity.h"
 #include "access/jwt.h"
 #include "access/operations.h"
+#include "access/quota_ledger.h"
 #include "access/signed_link.h"
 #include "access/token_list.h"
 #include "access/watched_file.h"
@@ -87,6 +88,7 @@ class AccessControl {
   const Clock& clock_;
   AuditLog audit_;
   const LinkSigner signer_;
+  QuotaLedger quotas_;
 
   std::mutex mutex_;
   std::optional<WatchedFile> tokens_file_;

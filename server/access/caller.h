@@ -5,8 +5,10 @@
 #include <string>
 #include <string_view>
 
+#include "access/audit_log.h"
 #include "access/identity.h"
 #include "access/operations.h"
+#include "access/quota_ledger.h"
 #include "base/status.h"
 
 namespace viewloom {
@@ -26,9 +28,18 @@ class Caller {
   // Name of the one whose share of memory and engine time its calls take: the proven identity's
   // id. Where nobody has to prove one, it is the client at `host` (identityOfHost).
   std::string shareName(std::string_view host) const;
-  // UNAUTHENTICATED once its identity has expired, was revoked, or has other rights. To be asked
-  // now and then while a call lives.
+  // UNAUTHENTICATED once its identity has expired, was revoked, or has other rights.
+  // RESOURCE_EXHAUSTED once it has gone over a rate of its quota. To be asked now and then while a
+  // call lives; the call ends then.
   absl::Status recheck() const;
+
+  // Parts of the identity's quota (quota_ledger.h). The audit log gets a line for each refusal.
+  // The caller stays connected, as long as it or one of its copies lives.
+  absl::Status stay();
+  absl::StatusOr<QuotaPartPtr> holdStream(const std::string& name) const;
+  absl::StatusOr<QuotaPartPtr> holdDisplay(const DisplayUse& use,
+                                           const QuotaPart* replaced = nullptr) const;
+  void noteBytes(uint64_t bytes) const;
 
  private:
   friend class AccessControl;
@@ -39,10 +50,15 @@ class Caller {
         peer_(std::move(peer)),
         identity_(std::move(identity)) {}
 
+  AuditEvent event(AuditOutcome outcome) const;
+  // Tells the audit log why not, if not.
+  absl::Status told(const absl::Status& status, const std::string& stream = "") const;
+
   AccessControl* access_;
   std::string_view operation_;  // of operations()
   std::string peer_;
   IdentityPtr identity_;
+  QuotaPartPtr connection_;
 };
 
 }  // namespace viewloom

@@ -61,6 +61,16 @@ uint64_t DisplayPrice::viewerBytes() const {
   return kConnectionBytes + encoded_bytes;
 }
 
+uint64_t atlasPixels(const DisplaySpec& spec) {
+  const TileGrid grid = tileGridOf(spec);
+  return grid.width_px * grid.height_px;
+}
+
+double pictureRate(const DisplaySpec& spec, double stream_rate_hz) {
+  const double asked_hz = spec.temporal ? spec.temporal->output_rate_hz : 0;
+  return asked_hz > 0 ? asked_hz : stream_rate_hz;
+}
+
 DisplayPrice displayPrice(const DisplaySpec& spec, const EncodingSpec& encoding) {
   const TileGrid grid = tileGridOf(spec);
   const uint64_t area_px = grid.width_px * grid.height_px;

@@ -24,7 +24,10 @@ struct DisplayPrice {
   uint64_t viewerBytes() const;
 };
 
-// Expects a completed spec.
+// Expects a completed spec, as all functions here.
+uint64_t atlasPixels(const DisplaySpec& spec);
+// Pictures a second of a display, whose stream has so many frames a second.
+double pictureRate(const DisplaySpec& spec, double stream_rate_hz);
 DisplayPrice displayPrice(const DisplaySpec& spec, const EncodingSpec& encoding);
 
 // Takes a display into the budget before it is opened, for the viewer `identity`. An atlas has to

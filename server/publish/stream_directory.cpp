@@ -178,6 +178,13 @@ bool StreamDirectory::exists(const std::string& stream) const {
   return state_->streams.contains(stream);
 }
 
+double StreamDirectory::rateHz(const std::string& stream) const {
+  const int64_t now_ns = state_->clock.nowNs();
+  std::lock_guard lock(state_->mutex);
+  const auto found = state_->streams.find(stream);
+  return found == state_->streams.end() ? 0 : found->second.arrivals.rateHz(now_ns);
+}
+
 std::vector<StreamEntry> StreamDirectory::list() const {
   const int64_t now_ns = state_->clock.nowNs();
   std::lock_guard lock(state_->mutex);

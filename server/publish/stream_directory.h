@@ -50,6 +50,8 @@ class StreamDirectory {
                                                const std::string& host = "");
 
   bool exists(const std::string& stream) const;
+  // StreamEntry::rate_hz of one stream; 0 for a stream that is not there.
+  double rateHz(const std::string& stream) const;
   // Sorted by name.
   std::vector<StreamEntry> list() const;
 

@@ -21,6 +21,15 @@ absl::StatusOr<Caller> admitCall(AccessControl& access, const grpc::CallbackServ
   return access.admit(rpc, peerHost(context.peer()), bearerToken(header));
 }
 
+absl::StatusOr<Caller> admitLiveCall(AccessControl& access,
+                                     const grpc::CallbackServerContext& context,
+                                     std::string_view rpc) {
+  absl::StatusOr<Caller> caller = admitCall(access, context, rpc);
+  VIEWLOOM_RETURN_IF_ERROR(caller.status());
+  VIEWLOOM_RETURN_IF_ERROR(caller->stay());
+  return caller;
+}
+
 absl::Status LiveCaller::tick() {
   if (!checked_.reaches(kCheckTicks)) return absl::OkStatus();
   checked_.restart();

@@ -17,6 +17,12 @@ namespace viewloom {
 absl::StatusOr<Caller> admitCall(AccessControl& access, const grpc::CallbackServerContext& context,
                                  std::string_view rpc);
 
+// The same for a call that stays: it takes a connection of the caller's quota. RESOURCE_EXHAUSTED
+// where there is none left.
+absl::StatusOr<Caller> admitLiveCall(AccessControl& access,
+                                     const grpc::CallbackServerContext& context,
+                                     std::string_view rpc);
+
 // The caller of a call that stays. Thread-safety: tick() belongs to one thread.
 class LiveCaller {
  public:
@@ -24,8 +30,8 @@ class LiveCaller {
 
   const Caller& operator*() const { return caller_; }
   const Caller* operator->() const { return &caller_; }
-  // To be called every kTick. Once a second it asks whether the identity still holds;
-  // UNAUTHENTICATED if not.
+  // To be called every kTick. Once a second it asks whether the identity still holds, and keeps to
+  // its quota: see Caller::recheck.
   absl::Status tick();
 
  private:

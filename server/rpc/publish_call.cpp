@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "admission/display_price.h"
 #include "admission/out_of_memory.h"
 #include "base/str_cat.h"
 #include "messages/wire_message.h"
@@ -75,30 +74,23 @@ absl::Status PublishCall::handleSettings(const v1::PublishSettings& settings) {
                         strCat("the session id has ", settings.session_id().size(),
                                " bytes; accepted is 0..", kSessionBytesMax));
   }
-  auto memory = parts_.memory.reserve(
-      {.use = MemoryUse::kConnections, .identity = identity_, .bytes = kConnectionBytes},
-      "a stream", [](uint64_t) { return ""; });
-  if (!memory.ok()) return withFieldPrefix(memory.status(), "settings.stream");
   const auto on_takeover = [self = weak_from_this()] {
     const auto call = self.lock();
     if (call)
       call->end(
           absl::AbortedError("another call with the same session id has taken the stream over"));
   };
-  auto claim = parts_.directory.claim(settings.stream(), settings.session_id(), on_takeover, host_);
-  if (!claim.ok()) {
-    const bool named = !fieldOf(claim.status()).empty();
-    return named ? claim.status() : withFieldPrefix(claim.status(), "settings.stream");
-  }
+  auto place =
+      takePublishPlace(settings, *caller_, host_, on_takeover, parts_.directory, parts_.memory);
+  VIEWLOOM_RETURN_IF_ERROR(place.status());
   v1::PublishFramesResponse response;
   *response.mutable_accepted() = limitsToProto(parts_.limits);
   {
     std::lock_guard lock(mutex_);
-    if (ending()) return absl::OkStatus();  // the claim goes with this scope
+    if (ending()) return absl::OkStatus();  // the place goes with this scope
     stream_ = settings.stream();
-    session_ = (*claim)->session();
-    claim_ = *std::move(claim);
-    memory_ = *std::move(memory);
+    session_ = place->claim->session();
+    place_ = *std::move(place);
     has_heartbeats_ = settings.sends_heartbeats();
     heartbeat_is_due_ = has_heartbeats_;
     replies_.push_back(bytesFromMessage(response));
@@ -159,6 +151,7 @@ absl::Status PublishCall::noteChunk(uint64_t data_bytes) {
   if (times_.first_chunk_ns == 0) times_.first_chunk_ns = now_ns;
   times_.last_chunk_ns = now_ns;
   parts_.metrics.received_bytes.add(static_cast<double>(data_bytes));
+  caller_->noteBytes(data_bytes);
   if (assembly_->complete()) offerFrame();
   return absl::OkStatus();
 }
@@ -234,11 +227,9 @@ void PublishCall::dropReads() {
 }
 
 void PublishCall::release() {
-  std::unique_ptr<StreamDirectory::Claim> claim;
-  Reservation memory;
+  PublishPlace left;
   std::lock_guard lock(mutex_);
-  claim = std::move(claim_);
-  memory = std::move(memory_);
+  left = std::exchange(place_, {});
 }
 
 std::optional<grpc::ByteBuffer> PublishCall::takeMessage() {

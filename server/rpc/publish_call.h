@@ -21,6 +21,7 @@
 #include "rpc/bidi_call.h"
 #include "rpc/call_access.h"
 #include "rpc/liveness.h"
+#include "rpc/publish_place.h"
 #include "rpc/wanted_message.h"
 #include "viewloom/v1/ingest_service.pb.h"
 
@@ -94,8 +95,7 @@ class PublishCall final : public BidiCall {
 
   // Under mutex_.
   std::string stream_;
-  Reservation memory_;  // of the call
-  std::unique_ptr<StreamDirectory::Claim> claim_;
+  PublishPlace place_;
   std::deque<grpc::ByteBuffer> replies_;  // accepted, then reports
   size_t unreported_count_ = 0;           // frames taken whose report has not come
   bool frame_waits_ = false;              // to be decoded: another one would replace it

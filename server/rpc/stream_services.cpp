@@ -27,7 +27,7 @@ std::string hostOf(const grpc::CallbackServerContext& context) {
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::PublishFrames(
     grpc::CallbackServerContext* context) {
-  absl::StatusOr<Caller> caller = admitCall(access_, *context, kPublishFrames);
+  absl::StatusOr<Caller> caller = admitLiveCall(access_, *context, kPublishFrames);
   if (!caller.ok()) return new RefusedCall(caller.status());
   const auto call = std::make_shared<PublishCall>(parts_, *std::move(caller), hostOf(*context));
   calls_.open(call);
@@ -52,7 +52,7 @@ void IngestService::drain() {
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* DisplayService::StreamAtlases(
     grpc::CallbackServerContext* context) {
-  absl::StatusOr<Caller> caller = admitCall(access_, *context, kStreamAtlases);
+  absl::StatusOr<Caller> caller = admitLiveCall(access_, *context, kStreamAtlases);
   if (!caller.ok()) return new RefusedCall(caller.status());
   const auto call = std::make_shared<WatchCall>(parts_, *std::move(caller), hostOf(*context));
   calls_.open(call);

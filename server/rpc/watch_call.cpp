@@ -3,7 +3,8 @@
 
 #include <utility>
 
-#include "messages/display_from_proto.h"
+#include "admission/display_price.h"
+#include "base/str_cat.h"
 #include "messages/wire_message.h"
 #include "publish/subscriber.h"
 #include "rpc/eye_poses_from_proto.h"
@@ -75,9 +76,7 @@ absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
 absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
   VIEWLOOM_RETURN_IF_ERROR(validateStreamName(request.stream(), "open.stream"));
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(caller_->mayUse(request.stream()), "open"));
-  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setDisplay(request.display()), "open"));
-  encoding_proto_ = request.encoding();
-  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(settleEncoding(), "open"));
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(asked_.open(request, parts_.limits), "open"));
   if (!request.wait_for_stream() && !parts_.directory.exists(request.stream()))
     return noSuchStream(request.stream(), "open.stream", parts_.directory, *caller_);
   stream_ = request.stream();
@@ -95,11 +94,7 @@ absl::Status WatchCall::handleOpen(const v1::OpenDisplay& request) {
 }
 
 absl::Status WatchCall::handleChange(const v1::ChangeDisplay& request) {
-  if (request.has_display()) {
-    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(setDisplay(request.display()), "change"));
-  }
-  if (request.has_encoding()) encoding_proto_ = request.encoding();
-  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(settleEncoding(), "change"));
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(asked_.change(request, parts_.limits), "change"));
   return takeSeat("change.display");
 }
 
@@ -143,26 +138,21 @@ void WatchCall::noteProbe(const v1::ClockProbe& probe, int64_t received_ns) {
 
 // Where the stream has to give it, it is not known before the first frame: the trace checks again.
 std::optional<double> WatchCall::focalDistance(uint64_t display_id) const {
-  const double wanted_m = std::get<StereoSpec>(spec_.kind).focal_distance_m;
+  const double wanted_m = std::get<StereoSpec>(asked_.display().kind).focal_distance_m;
   if (wanted_m > 0) return wanted_m;
   const std::shared_ptr<const AtlasLayout> layout = parts_.broadcaster.layout(display_id);
   if (layout == nullptr) return std::nullopt;
   return layout->focal_distance_m;
 }
 
-absl::Status WatchCall::setDisplay(const v1::Display& proto) {
-  absl::StatusOr<DisplaySpec> spec = displayFromProto(proto);
-  absl::Status status = spec.status();
-  if (status.ok()) status = validateAtlasLimits(*spec, parts_.limits);
-  if (status.ok()) spec_ = *std::move(spec);
-  return withFieldPrefix(status, "display");
-}
-
-// The display decides values that are left open.
-absl::Status WatchCall::settleEncoding() {
-  const absl::StatusOr<EncodingSpec> encoding = encodingFromProto(encoding_proto_, spec_);
-  if (encoding.ok()) encoding_ = *encoding;
-  return withFieldPrefix(encoding.status(), "encoding");
+DisplayUse WatchCall::displayUse() const {
+  const DisplaySpec& display = asked_.display();
+  std::string key = strCat(stream_, " ", displayKey(display), encodingKey(asked_.encoding()));
+  // A tracked display is this call's alone.
+  if (eyes_ != nullptr) key += strCat("of ", absl::Hex(reinterpret_cast<uintptr_t>(eyes_.get())));
+  return {.key = std::move(key),
+          .pixels = atlasPixels(display),
+          .rate_hz = pictureRate(display, parts_.directory.rateHz(stream_))};
 }
 
 absl::Status WatchCall::takeSeat(const std::string& field) {
@@ -173,20 +163,25 @@ absl::Status WatchCall::takeSeat(const std::string& field) {
     std::lock_guard lock(mutex_);
     seat = std::make_shared<Seat>(self, ++seat_number_, field);
     left = std::move(subscription_);
+    quota_ = nullptr;
     outbox_.restart(seat);
     advance();
   }
   leave(std::move(left));  // before the new one, so that a change never needs a second place
-  if (!isTracked(spec_)) {
+  if (!isTracked(asked_.display())) {
     eyes_ = nullptr;
   } else {
     eyes_ = eyes_ ? std::make_shared<EyeTrack>(*eyes_) : std::make_shared<EyeTrack>();
   }
-  auto subscription = parts_.broadcaster.subscribe(stream_, spec_, encoding_, seat, eyes_);
+  auto quota = caller_->holdDisplay(displayUse());
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(quota.status(), field));
+  auto subscription =
+      parts_.broadcaster.subscribe(stream_, asked_.display(), asked_.encoding(), seat, eyes_);
   if (!subscription.ok()) return seat->inField(subscription.status());
   std::lock_guard lock(mutex_);
   if (ending()) return absl::OkStatus();  // the subscription goes with this scope
   subscription_ = *std::move(subscription);
+  quota_ = *std::move(quota);
   parts_.metrics.subscribers[Transport::kGrpc].add(1);
   return absl::OkStatus();
 }
@@ -216,6 +211,7 @@ void WatchCall::release() {
   {
     std::lock_guard lock(mutex_);
     left = std::move(subscription_);
+    quota_ = nullptr;
     outbox_.close(draining_);
   }
   leave(std::move(left));
@@ -238,6 +234,7 @@ void WatchCall::noteGrowth(uint64_t seat_number) {
 void WatchCall::offer(uint64_t seat_number, AtlasPtr atlas) {
   std::lock_guard lock(mutex_);
   if (seat_number != seat_number_ || ending()) return;
+  if (quota_) quota_->noteAtlas(atlas->sequence, atlas->layout->size_px.area());
   outbox_.offer(std::move(atlas));
   advance();
 }
@@ -270,7 +267,9 @@ std::optional<grpc::ByteBuffer> WatchCall::takeMessage() {
   if (!message.has_value()) message = outbox_.take(!ending() || draining_);
   if (!message.has_value()) message = takeReply();
   if (!message.has_value()) message = takeHeartbeat();
-  if (message.has_value()) told_.restart();
+  if (!message.has_value()) return std::nullopt;
+  told_.restart();
+  caller_->noteBytes(message->Length());
   return message;
 }
 

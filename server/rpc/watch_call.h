@@ -15,6 +15,7 @@
 #include "metrics/metrics.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
+#include "rpc/asked_picture.h"
 #include "rpc/atlas_outbox.h"
 #include "rpc/bidi_call.h"
 #include "rpc/call_access.h"
@@ -68,8 +69,7 @@ class WatchCall final : public BidiCall {
   void notePresented(const v1::Presented& presented);
   void noteProbe(const v1::ClockProbe& probe, int64_t received_ns);
   std::optional<double> focalDistance(uint64_t display_id) const;
-  absl::Status setDisplay(const v1::Display& proto);
-  absl::Status settleEncoding();
+  DisplayUse displayUse() const;
   absl::Status takeSeat(const std::string& field);
 
   void leave(std::unique_ptr<Broadcaster::Subscription> subscription);
@@ -86,13 +86,12 @@ class WatchCall final : public BidiCall {
 
   // Used only by the reads.
   std::string stream_;  // empty before the call was opened
-  DisplaySpec spec_;
-  v1::AtlasEncoding encoding_proto_;  // as it was asked for
-  EncodingSpec encoding_;
+  AskedPicture asked_;
   EyeTrackPtr eyes_;  // while the display is tracked; a changed one is seen by the same eyes
 
   // Under mutex_.
   std::unique_ptr<Broadcaster::Subscription> subscription_;
+  QuotaPartPtr quota_;  // of its display
   uint64_t seat_number_ = 0;
   bool draining_ = false;  // what waits is still written
   AtlasOutbox outbox_;

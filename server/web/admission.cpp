@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "access/utc_time.h"
+#include "admission/display_price.h"
 #include "base/str_cat.h"
 #include "web/session.h"
 
@@ -126,6 +127,18 @@ absl::StatusOr<AdmittedPicture> admitPicture(const WebContext& context, const Ht
   }
   VIEWLOOM_RETURN_IF_ERROR(admitStream(*caller, address->request.stream, context.streams));
   return AdmittedPicture{.caller = *std::move(caller), .address = *std::move(address)};
+}
+
+absl::StatusOr<QuotaPartPtr> holdDisplay(const WebContext& context, const Caller& caller,
+                                         const WatchRequest& request, const QuotaPart* replaced) {
+  const auto& [stream, display, encoding] = request;
+  absl::StatusOr<QuotaPartPtr> held = caller.holdDisplay(
+      {.key = strCat(stream, " ", displayKey(display), encodingKey(encoding)),
+       .pixels = atlasPixels(display),
+       .rate_hz = pictureRate(display, context.streams.rateHz(stream))},
+      replaced);
+  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(held.status(), "display"));
+  return held;
 }
 
 HttpReply answerLink(const WebContext& context, const HttpRequest& request, const Url& url) {

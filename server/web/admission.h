@@ -33,6 +33,11 @@ struct AdmittedPicture {
 absl::StatusOr<AdmittedPicture> admitPicture(const WebContext& context, const HttpRequest& request,
                                              Url url, const QuiltAddressForm& form);
 
+// The part of the caller's quota that a display takes. `replaced`: see Caller::holdDisplay.
+absl::StatusOr<QuotaPartPtr> holdDisplay(const WebContext& context, const Caller& caller,
+                                         const WatchRequest& request,
+                                         const QuotaPart* replaced = nullptr);
+
 // Answers /api/link?target=ADDRESS&seconds=300: the address of a picture, with a link that shows it
 // to whoever has it.
 HttpReply answerLink(const WebContext& context, const HttpRequest& request, const Url& url);

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "access/quota_ledger.h"
 #include "base/clock.h"
 #include "base/latest_mailbox.h"
 #include "metrics/metrics.h"
@@ -25,17 +26,21 @@ class AtlasInbox final : public Subscriber {
   };
 
   // `on_change` is called, without a lock held, whenever there is something new to take or to
-  // learn. `identity`: see Subscriber.
+  // learn. `identity`: see Subscriber. `quota`: of the reader, for this display; null = none.
   AtlasInbox(const Clock& clock, Counter replaced, std::function<void()> on_change,
-             std::string identity = "")
+             std::string identity = "", QuotaPartPtr quota = nullptr)
       : clock_(clock),
         replaced_(replaced),
         on_change_(std::move(on_change)),
-        identity_(std::move(identity)) {}
+        identity_(std::move(identity)),
+        quota_(std::move(quota)) {}
 
   std::string identity() const override { return identity_; }
 
+  const QuotaPart* quota() const { return quota_.get(); }
+
   void offer(AtlasPtr atlas) override {
+    if (quota_) quota_->noteAtlas(atlas->sequence, atlas->layout->size_px.area());
     if (mailbox_.push({std::move(atlas), clock_.nowNs()})) replaced_.add();
     on_change_();
   }
@@ -62,6 +67,7 @@ class AtlasInbox final : public Subscriber {
   const Counter replaced_;
   const std::function<void()> on_change_;
   const std::string identity_;
+  const QuotaPartPtr quota_;
   LatestMailbox<Arrival> mailbox_;
   mutable std::mutex mutex_;  // of ended_
   std::optional<absl::Status> ended_;

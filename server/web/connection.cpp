@@ -248,8 +248,9 @@ net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& reques
     co_return;
   }
   absl::StatusOr<Caller> caller = admitViewer(context_, request, *url);
-  if (!caller.ok()) {
-    co_await write(errorReply(caller.status()), parser, false, error);
+  const absl::Status admitted = caller.ok() ? caller->stay() : caller.status();
+  if (!admitted.ok()) {
+    co_await write(errorReply(admitted), parser, false, error);
     co_return;
   }
   const std::string identity = caller->shareName(host_);
@@ -263,10 +264,12 @@ net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& reques
 }
 
 net::awaitable<bool> Connection::play(HttpReply& reply) {
-  const Caller& caller = reply.live->caller;
+  Caller& caller = reply.live->caller;
+  absl::Status status = caller.stay();
   const auto player =
       std::make_shared<MultipartStream>(context_, caller, strand_, caller.shareName(host_));
-  if (const absl::Status status = player->subscribe(reply.live->request); !status.ok()) {
+  if (status.ok()) status = player->subscribe(reply.live->request);
+  if (!status.ok()) {
     reply = errorReply(status);
     co_return false;
   }

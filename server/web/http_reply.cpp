@@ -26,6 +26,12 @@ std::string plainName(std::string_view file_name) {
 
 }  // namespace
 
+size_t bodyBytes(const HttpReply& reply) {
+  size_t bytes = reply.text.size() + reply.fixed.size();
+  for (const SharedBytes& part : reply.shared) bytes += part->size();
+  return bytes;
+}
+
 unsigned httpStatusOf(absl::StatusCode code) {
   switch (code) {
     case absl::StatusCode::kOk:

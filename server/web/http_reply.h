@@ -31,6 +31,9 @@ struct HttpReply {
   std::optional<Live> live{};
 };
 
+// Bytes of the body, unless the reply is live.
+size_t bodyBytes(const HttpReply& reply);
+
 unsigned httpStatusOf(absl::StatusCode code);
 
 // {"error": {"code": "INVALID_ARGUMENT", "field": "columns", "message": "columns: got ..."}}

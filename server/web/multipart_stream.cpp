@@ -61,6 +61,8 @@ MultipartStream::~MultipartStream() {
 }
 
 absl::Status MultipartStream::subscribe(const WatchRequest& request) {
+  absl::StatusOr<QuotaPartPtr> quota = holdDisplay(context_, caller_, request);
+  VIEWLOOM_RETURN_IF_ERROR(quota.status());
   const auto executor = awake_.get_executor();
   inbox_ = std::make_shared<AtlasInbox>(
       context_.clock, context_.metrics.replaced[HandOver::kWeb],
@@ -69,7 +71,7 @@ absl::Status MultipartStream::subscribe(const WatchRequest& request) {
           if (const auto self = weak.lock()) self->wake();
         });
       },
-      identity_);
+      identity_, *std::move(quota));
   auto subscription =
       context_.broadcaster.subscribe(request.stream, request.display, request.encoding, inbox_);
   VIEWLOOM_RETURN_IF_ERROR(subscription.status());
@@ -155,6 +157,7 @@ net::awaitable<void> MultipartStream::writePart(std::string end, ErrorCode& erro
   co_await net::async_write(*stream_, part, into(error));
   if (error) co_return;
   context_.metrics.sent_bytes[Transport::kWeb].add(static_cast<double>(net::buffer_size(part)));
+  caller_.noteBytes(net::buffer_size(part));
 }
 
 net::awaitable<void> MultipartStream::writeText(std::string text, ErrorCode& error) {

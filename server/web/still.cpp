@@ -34,21 +34,27 @@ HttpReply stillReply(const EncodedAtlas& atlas, const QuiltAddress& address) {
   return reply;
 }
 
-net::awaitable<HttpReply> takeAtlas(WebContext& context, QuiltAddress address,
+net::awaitable<HttpReply> takeAtlas(WebContext& context, QuiltAddress address, Caller caller,
                                     std::string identity) {
   const WatchRequest& request = address.request;
+  absl::StatusOr<QuotaPartPtr> quota = holdDisplay(context, caller, request);
+  if (!quota.ok()) co_return errorReply(quota.status());
   const auto executor = co_await net::this_coro::executor;
   const auto deadline =
       std::make_shared<net::steady_timer>(executor, context.options.still_timeout);
   const auto inbox = std::make_shared<AtlasInbox>(
       context.clock, context.metrics.replaced[HandOver::kWeb],
       [executor, deadline] { net::post(executor, [deadline] { deadline->cancel(); }); },
-      std::move(identity));
+      std::move(identity), *std::move(quota));
   const auto subscription =
       context.broadcaster.subscribe(request.stream, request.display, request.encoding, inbox);
   if (!subscription.ok()) co_return errorReply(subscription.status());
   for (;;) {
-    if (const auto arrival = inbox->take()) co_return stillReply(*arrival->atlas, address);
+    if (const auto arrival = inbox->take()) {
+      HttpReply reply = stillReply(*arrival->atlas, address);
+      caller.noteBytes(bodyBytes(reply));
+      co_return reply;
+    }
     if (const auto ended = inbox->ended()) {
       co_return errorReply(
           ended->ok() ? absl::UnavailableError("the server is shutting down; try again later")
@@ -72,8 +78,9 @@ net::awaitable<HttpReply> answerStill(WebContext& context, HttpRequest request, 
   if (!picture.ok()) co_return errorReply(picture.status());
   QuiltAddress& address = picture->address;
   if (!address.redirect.empty()) co_return redirectReply(address.redirect);
-  co_return co_await takeAtlas(context, std::move(address),
-                               picture->caller.shareName(request.client_host));
+  std::string identity = picture->caller.shareName(request.client_host);
+  co_return co_await takeAtlas(context, std::move(address), std::move(picture->caller),
+                               std::move(identity));
 }
 
 }  // namespace viewloom

@@ -6,6 +6,7 @@
 #include "admission/out_of_memory.h"
 #include "messages/message_from_json.h"
 #include "viewloom/v1/web_socket.pb.h"
+#include "web/admission.h"
 #include "web/atlas_message.h"
 #include "web/http_reply.h"
 
@@ -93,6 +94,9 @@ absl::Status Viewer::subscribe(const AskedDisplay& asked) {
   const absl::StatusOr<WatchRequest> request = makeWatchRequest(asked);
   VIEWLOOM_RETURN_IF_ERROR(request.status());
   VIEWLOOM_RETURN_IF_ERROR(checkStream(request->stream, caller_, context_.streams));
+  absl::StatusOr<QuotaPartPtr> quota =
+      holdDisplay(context_, caller_, *request, inbox_ ? inbox_->quota() : nullptr);
+  VIEWLOOM_RETURN_IF_ERROR(quota.status());
   const std::weak_ptr<Viewer> viewer = weak_from_this();
   const auto executor = socket_.get_executor();
   auto inbox = std::make_shared<AtlasInbox>(
@@ -102,7 +106,7 @@ absl::Status Viewer::subscribe(const AskedDisplay& asked) {
           if (const auto self = viewer.lock()) self->wake();
         });
       },
-      identity_);
+      identity_, *std::move(quota));
   auto subscription =
       context_.broadcaster.subscribe(request->stream, request->display, request->encoding, inbox);
   VIEWLOOM_RETURN_IF_ERROR(subscription.status());
@@ -233,6 +237,7 @@ net::awaitable<void> Viewer::writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& 
   if (error) co_return;
   context_.metrics.atlases_sent[Transport::kWeb].add();
   context_.metrics.sent_bytes[Transport::kWeb].add(static_cast<double>(message.sizeBytes()));
+  caller_.noteBytes(message.sizeBytes());
 }
 
 net::awaitable<void> Viewer::close(const absl::Status& status) {

@@ -18,6 +18,7 @@ sys.path.insert(0, sys.argv.pop(1))
 import grpc
 from viewloom.v1 import catalog_service_pb2 as catalog
 from viewloom.v1 import display_service_pb2 as display
+from viewloom.v1 import frame_pb2 as frame
 from viewloom.v1 import ingest_service_pb2 as ingest
 from viewloom.v1.catalog_service_pb2_grpc import CatalogServiceStub
 from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
@@ -25,6 +26,8 @@ from viewloom.v1.ingest_service_pb2_grpc import IngestServiceStub
 
 Code = grpc.StatusCode
 LISTS = ("ListStreams", "ListDisplays", "ListPresets", "GetServerInfo")
+SMALL_LIMITS = "connections=2,streams=1,displays=1,pixels_per_s=1000000"
+HELD_S = 30  # longest life of a call that nobody ends
 NOTICED_S = 3  # a change of the token file, and the calls that it ends
 
 
@@ -35,11 +38,14 @@ class Access(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
         self.file = self.folder / "tokens.jsonl"
         self.audit = self.folder / "audit.jsonl"
-        self.tokens = {name: self.add(name, "--role", role, "--streams", streams)
-                       for name, role, streams in (("camera", "publish", "room.*"),
-                                                   ("wall", "watch", "room.*"),
-                                                   ("other", "publish,watch", "hall"),
-                                                   ("metrics", "operate", "*"))}
+        self.tokens = {
+            name: self.add(name, "--role", role, "--streams", streams, "--limits", limits)
+            for name, role, streams, limits in (("camera", "publish", "room.*", ""),
+                                                ("wall", "watch", "room.*", ""),
+                                                ("other", "publish,watch", "hall", ""),
+                                                ("metrics", "operate", "*", ""),
+                                                ("small", "publish,watch", "room.*", SMALL_LIMITS),
+                                                ("slow", "publish", "room.*", "bytes_per_s=1000"))}
         self.server = viewloomd.Viewloomd(options=("--access.token_file", self.file,
                                                    "--access.audit_file", self.audit))
         self.addCleanup(self.server.stop)
@@ -95,6 +101,54 @@ class Access(unittest.TestCase):
         held.set()
         return publish, watch
 
+    def held(self, method, name, *messages):
+        """A call of a token that stays open until the test ends, or it is cancelled."""
+        done = threading.Event()
+        self.addCleanup(done.set)
+
+        def sent():
+            yield from messages
+            done.wait()
+
+        return method(sent(), metadata=self.metadata(self.tokens[name]), timeout=HELD_S)
+
+    def publishing(self, name, stream, *messages):
+        return self.held(IngestServiceStub(self.channel).PublishFrames, name,
+                         ingest.PublishFramesRequest(settings={"stream": stream}), *messages)
+
+    def watching(self, name, **shown):
+        opening = {"stream": "room.1", "display": shown, "wait_for_stream": True,
+                   "wants_heartbeats": True}
+        return self.held(DisplayServiceStub(self.channel).StreamAtlases, name,
+                         display.StreamAtlasesRequest(open=opening))
+
+    def opened(self, open_call):
+        """A call that has answered. The server notices a moment later that others have ended."""
+        end_s = time.monotonic() + NOTICED_S
+        while True:
+            call = open_call()
+            try:
+                next(call)
+                return call
+            except grpc.RpcError as error:
+                if error.code() != Code.RESOURCE_EXHAUSTED or time.monotonic() > end_s:
+                    raise
+                time.sleep(0.1)
+
+    def assert_exhausted(self, open_call, *parts):
+        """Likewise a call that is refused, with these words."""
+        end_s = time.monotonic() + NOTICED_S
+        while True:
+            with self.assertRaises(grpc.RpcError) as refused:
+                for _ in open_call():
+                    pass
+            self.assertEqual(refused.exception.code(), Code.RESOURCE_EXHAUSTED)
+            said = refused.exception.details()
+            if all(part in said for part in parts):
+                return
+            self.assertLess(time.monotonic(), end_s, f"{parts} not in {said}")
+            time.sleep(0.1)
+
     def list_codes(self, token):
         codes = set()
         for name in LISTS:
@@ -121,6 +175,46 @@ class Access(unittest.TestCase):
         for token in ("", "viewloom_wrong", self.tokens["wall"][:-1] + "?"):
             self.assertEqual(self.open_calls("room.1", token), (unknown, unknown))
             self.assertEqual(self.list_codes(token), {unknown})
+
+    def test_limits_hold_for_all_calls_of_a_token(self):
+        quilt = {"columns": 4, "rows": 4, "size": {"width": 512, "height": 512}}
+        other = {**quilt, "columns": 2}
+        published = self.opened(lambda: self.publishing("small", "room.1"))
+        self.assert_exhausted(lambda: self.publishing("small", "room.2"),
+                              "settings.stream: a further", "accepted are 1 at a time",
+                              '(limit streams of the access token of "small")')
+        self.assert_exhausted(lambda: self.watching("small", preset="portrait"), "open.display: ",
+                              "of 1000000 are left (limit pixels_per_s", "Such a display fits")
+        watched = self.opened(lambda: self.watching("small", quilt=quilt))
+        self.assert_exhausted(lambda: self.watching("small", quilt=quilt),
+                              "accepted are 2 at a time (limit connections")
+        published.cancel()
+        self.assert_exhausted(lambda: self.watching("small", quilt=other),
+                              "open.display: a further", "accepted are 1 at a time (limit displays")
+        same = self.opened(lambda: self.watching("small", quilt=quilt))
+        watched.cancel()
+        same.cancel()
+        self.opened(lambda: self.watching("small", quilt=other))
+        self.assertIn("(limit displays", self.audit.read_text(encoding="utf-8"))
+
+    def test_a_token_that_sends_too_much_loses_its_call(self):
+        size = {"width": 64, "height": 64}
+        planes = [frame.Plane(kind=frame.PLANE_KIND_COLOR, encoding=frame.PLANE_ENCODING_RGBA8,
+                              size=size, bytes_count=64 * 64 * 4),
+                  frame.Plane(kind=frame.PLANE_KIND_DEPTH, encoding=frame.PLANE_ENCODING_DEPTH_F32,
+                              size=size, bytes_count=64 * 64 * 4,
+                              depth={"meaning": frame.DEPTH_MEANING_PLANAR})]
+        fov = {"angle_left_rad": -0.5, "angle_right_rad": 0.5, "angle_up_rad": 0.5,
+               "angle_down_rad": -0.5}
+        header = frame.FrameHeader(number=1, sources=[frame.Source(
+            camera={"fov": fov}, layers=[frame.Layer(planes=planes)])])
+        messages = (ingest.PublishFramesRequest(header=header),
+                    ingest.PublishFramesRequest(chunk={"data": bytes(64 * 64 * 4)}))
+        free = self.opened(lambda: self.publishing("camera", "room.1", *messages))
+        self.assert_exhausted(lambda: self.publishing("slow", "room.2", *messages),
+                              "16384 bytes were used within",
+                              "accepted are 1000 a second (limit bytes_per_s")
+        self.assertTrue(free.is_active())
 
     def test_health_needs_no_token(self):
         check = self.channel.unary_unary("/grpc.health.v1.Health/Check")
