@@ -4,15 +4,20 @@
 #include <algorithm>
 #include <future>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/asio/use_future.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
+#include <boost/beast/ssl.hpp>
 
 #include "base/host_port.h"
 #include "base/str_cat.h"
+#include "certificates/certificate.h"
 
 namespace viewloom::bridge {
 namespace {
@@ -21,9 +26,12 @@ namespace net = boost::asio;
 namespace beast = boost::beast;
 namespace http = boost::beast::http;
 
-constexpr std::string_view kScheme = "http://";
 constexpr unsigned kHttpVersion11 = 11;
 constexpr uint64_t kBodyBytesMax = uint64_t{4} << 20;
+
+std::string_view schemeOf(const TlsParts* tls) {
+  return tls == nullptr ? "http://" : "https://";
+}
 
 bool isHostCharacter(char character) {
   return std::isalnum(static_cast<unsigned char>(character)) != 0 || character == '.' ||
@@ -52,18 +60,10 @@ Result finish(net::io_context& io, std::future<Result> operation) {
   return operation.get();
 }
 
-HttpResponse exchangeOrThrow(const HttpAddress& address, const HttpRequest& request,
-                             std::chrono::milliseconds timeout) {
-  net::io_context io;
-  net::ip::tcp::resolver resolver(io);
-  const auto endpoints = resolver.resolve(address.host, std::to_string(address.port));
-  beast::tcp_stream stream(io);
-  stream.expires_after(timeout);
-  finish(io, stream.async_connect(endpoints, net::use_future));
-
+http::request<http::string_body> messageOf(const HttpAddress& address, const HttpRequest& request) {
   http::request<http::string_body> message(http::string_to_verb(request.method), request.target,
                                            kHttpVersion11);
-  message.set(http::field::host, address.url().substr(kScheme.size()));
+  message.set(http::field::host, HostPort{.host = address.host, .port = address.port}.text());
   message.set(http::field::user_agent, "viewloom");
   message.keep_alive(false);
   if (!request.token.empty()) message.set(http::field::authorization, "Bearer " + request.token);
@@ -72,8 +72,13 @@ HttpResponse exchangeOrThrow(const HttpAddress& address, const HttpRequest& requ
     message.body() = request.json;
   }
   message.prepare_payload();
-  finish(io, http::async_write(stream, message, net::use_future));
+  return message;
+}
 
+template <typename Stream>
+HttpResponse talk(net::io_context& io, Stream& stream,
+                  const http::request<http::string_body>& message) {
+  finish(io, http::async_write(stream, message, net::use_future));
   http::response_parser<http::string_body> parser;
   parser.body_limit(kBodyBytesMax);
   beast::flat_buffer buffer;
@@ -83,6 +88,53 @@ HttpResponse exchangeOrThrow(const HttpAddress& address, const HttpRequest& requ
   return {.status = answer.result_int(),
           .location = std::string(location.data(), location.size()),
           .body = std::move(answer.body())};
+}
+
+// Certificates that the server has shown, its own first.
+std::vector<Certificate> chainOf(SSL* connection) {
+  std::vector<Certificate> chain;
+  STACK_OF(X509)* const shown = SSL_get_peer_cert_chain(connection);
+  for (int i = 0; i < sk_X509_num(shown); ++i) {
+    X509* const certificate = sk_X509_value(shown, i);
+    X509_up_ref(certificate);
+    chain.emplace_back(OpensslPtr<X509>(certificate));
+  }
+  return chain;
+}
+
+// The handshake proves that the server has the key of its certificate; TlsParts::judge says whose
+// certificate it is.
+absl::StatusOr<HttpResponse> talkEncrypted(net::io_context& io, beast::tcp_stream plain,
+                                           const HttpAddress& address,
+                                           const http::request<http::string_body>& message) {
+  const TlsParts& parts = *address.tls;
+  net::ssl::context context(net::ssl::context::tls_client);
+  SSL_CTX_set_min_proto_version(context.native_handle(), TLS1_2_VERSION);
+  if (parts.own) {
+    context.use_certificate_chain(net::buffer(parts.own->chain_pem));
+    context.use_private_key(net::buffer(parts.own->key_pem), net::ssl::context::pem);
+  }
+  beast::ssl_stream<beast::tcp_stream> stream(std::move(plain), context);
+  stream.set_verify_mode(net::ssl::verify_none);
+  boost::system::error_code no_address;
+  net::ip::make_address(address.host, no_address);
+  if (no_address) SSL_set_tlsext_host_name(stream.native_handle(), address.host.c_str());
+  finish(io, stream.async_handshake(net::ssl::stream_base::client, net::use_future));
+  VIEWLOOM_RETURN_IF_ERROR(parts.judge(chainOf(stream.native_handle()), address.host));
+  return talk(io, stream, message);
+}
+
+absl::StatusOr<HttpResponse> exchangeOrThrow(const HttpAddress& address, const HttpRequest& request,
+                                             std::chrono::milliseconds timeout) {
+  net::io_context io;
+  net::ip::tcp::resolver resolver(io);
+  const auto endpoints = resolver.resolve(address.host, std::to_string(address.port));
+  beast::tcp_stream stream(io);
+  stream.expires_after(timeout);
+  finish(io, stream.async_connect(endpoints, net::use_future));
+  const http::request<http::string_body> message = messageOf(address, request);
+  if (address.tls == nullptr) return talk(io, stream, message);
+  return talkEncrypted(io, std::move(stream), address, message);
 }
 
 absl::Status statusOf(const boost::system::error_code& error) {
@@ -100,19 +152,22 @@ bool HttpAddress::isLoopback() const {
 }
 
 std::string HttpAddress::url() const {
-  return strCat(std::string(kScheme), HostPort{.host = host, .port = port}.text());
+  return strCat(std::string(schemeOf(tls.get())), HostPort{.host = host, .port = port}.text());
 }
 
 absl::StatusOr<HttpAddress> parseHttpAddress(std::string_view text, uint16_t default_port,
-                                             std::string_view option) {
+                                             std::string_view option,
+                                             std::shared_ptr<const TlsParts> tls) {
   std::string_view rest = text;
-  HttpAddress address{.host = "", .port = default_port};
-  const bool has_scheme = rest.starts_with(kScheme);
-  if (has_scheme) rest.remove_prefix(kScheme.size());
+  const std::string scheme(schemeOf(tls.get()));
+  HttpAddress address{.host = "", .port = default_port, .tls = std::move(tls)};
+  const bool has_scheme = rest.starts_with(scheme);
+  if (has_scheme) rest.remove_prefix(scheme.size());
   if (rest.ends_with('/')) rest.remove_suffix(1);
   if (has_scheme && readAuthority(rest, address)) return address;
   return absl::InvalidArgumentError(strCat(std::string(option), ": got \"", std::string(text),
-                                           "\"; accepted is http://HOST or http://HOST:PORT"));
+                                           "\"; accepted is ", scheme, "HOST or ", scheme,
+                                           "HOST:PORT"));
 }
 
 absl::StatusOr<HttpResponse> exchange(const HttpAddress& address, const HttpRequest& request,

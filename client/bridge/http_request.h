@@ -4,25 +4,31 @@
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 
 #include "base/status.h"
+#include "lib/tls_parts.h"
 
 namespace viewloom::bridge {
 
 struct HttpAddress {
   std::string host;  // a name or an address; IPv6 without brackets
   uint16_t port = 0;
+  // How the server is known, and this client to it; null = without encryption.
+  std::shared_ptr<const TlsParts> tls = nullptr;
 
   bool isLoopback() const;
   // "http://localhost:33334"
   std::string url() const;
 };
 
-// Reads http://HOST[:PORT][/]. INVALID_ARGUMENT, saying `option`, for anything else.
+// Reads http://HOST[:PORT][/]; with `tls`, https://HOST[:PORT][/]. INVALID_ARGUMENT, saying
+// `option`, for anything else.
 absl::StatusOr<HttpAddress> parseHttpAddress(std::string_view text, uint16_t default_port,
-                                             std::string_view option);
+                                             std::string_view option,
+                                             std::shared_ptr<const TlsParts> tls = nullptr);
 
 struct HttpRequest {
   std::string method;  // GET or PUT
@@ -41,7 +47,8 @@ struct HttpResponse {
 
 // Blocks until the answer is there, at most so long (looking up a name takes its own time).
 // UNAVAILABLE when nobody can be reached, DEADLINE_EXCEEDED, DATA_LOSS for an answer that is no
-// HTTP or longer than 4 MiB. Thread-safety: may be called from any thread.
+// HTTP or longer than 4 MiB, UNAUTHENTICATED where the server is not the one that is known. Nothing
+// is sent to such a server. Thread-safety: may be called from any thread.
 absl::StatusOr<HttpResponse> exchange(const HttpAddress& address, const HttpRequest& request,
                                       std::chrono::milliseconds timeout);
 

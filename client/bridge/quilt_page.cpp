@@ -68,9 +68,10 @@ absl::StatusOr<HttpResponse> get(const HttpAddress& page, const std::string& tar
                                               timeout.count(),
                                               " ms; wait longer with --timeout SECONDS"));
   }
-  return absl::UnavailableError(
-      strCat("no page of viewloomd at ", page.url(), " (", reason,
-             "); start `viewloomd serve`, or name its page with --address http://HOST:PORT"));
+  if (absl::IsUnauthenticated(response.status())) return response.status();
+  return absl::UnavailableError(strCat("no page of viewloomd at ", page.url(), " (", reason,
+                                       "); start `viewloomd serve`, or name its page with "
+                                       "--address http://HOST:PORT, or https://HOST:PORT for TLS"));
 }
 
 // Where a redirect leads: the server names an address relative to the one that was asked for, which

@@ -13,9 +13,11 @@
 #include "base/str_cat.h"
 #include "bridge/bridge.h"
 #include "bridge/quilt_page.h"
+#include "certificates/server_address.h"
 #include "cli/interrupt.h"
 #include "cli/print_json.h"
 #include "display/named_display.h"
+#include "lib/tls_parts.h"
 #include "viewloom/v1/atlas.pb.h"
 #include "viewloom/v1/display.pb.h"
 
@@ -143,13 +145,25 @@ absl::Status cast(const CastOptions& options, const HttpAddress& page, const std
   return absl::OkStatus();
 }
 
-int run(const CastOptions& options, const std::string& token) {
+// The page's address, with what its encryption needs.
+absl::StatusOr<HttpAddress> pageAddress(const CastOptions& options, const TlsOptions& tls) {
+  const ServerAddress address = parseServerAddress(options.address);
+  VIEWLOOM_RETURN_IF_ERROR(checkTlsOptions(address, tls));
+  std::shared_ptr<const TlsParts> parts;
+  if (address.has_tls) {
+    absl::StatusOr<TlsParts> read = readTlsParts(tls);
+    VIEWLOOM_RETURN_IF_ERROR(read.status());
+    parts = std::make_shared<const TlsParts>(*std::move(read));
+  }
+  return bridge::parseHttpAddress(options.address, kPagePort, "--address", std::move(parts));
+}
+
+int run(const CastOptions& options, const CommonOptions& common) {
   if (const absl::Status shape = checkShape(options); !shape.ok()) return fail(shape);
   const absl::StatusOr<HttpAddress> bridge_address =
       bridge::parseHttpAddress(options.bridge, kBridgePort, "--bridge");
   if (!bridge_address.ok()) return fail(bridge_address.status());
-  const absl::StatusOr<HttpAddress> page =
-      bridge::parseHttpAddress(options.address, kPagePort, "--address");
+  const absl::StatusOr<HttpAddress> page = pageAddress(options, common.tls);
   if (!page.ok()) return fail(page.status());
   if (page->isLoopback() && !bridge_address->isLoopback()) {
     return fail(absl::InvalidArgumentError(
@@ -158,7 +172,7 @@ int run(const CastOptions& options, const std::string& token) {
                "address of the network (--http.address), and give that address with --address")));
   }
   Bridge to(*bridge_address, milliseconds(options.timeout_s));
-  const absl::Status status = cast(options, *page, token, to);
+  const absl::Status status = cast(options, *page, common.token, to);
   return status.ok() ? int{kExitDone} : fail(status);
 }
 
@@ -171,12 +185,14 @@ RunCommand addCastCommand(const usage::Command& app) {
       "  viewloom cast                                    stream \"demo\", as the display needs "
       "it\n"
       "  viewloom cast scan --preset portrait --every 2\n"
-      "  viewloom cast --bridge http://10.0.0.7 --address http://10.0.0.5:8080");
+      "  viewloom cast --bridge http://10.0.0.7 --address http://10.0.0.5:8080\n"
+      "  viewloom cast --address https://studio.example --token-file wall.token");
   app.add("stream", options->stream, "Name of the stream").showDefault();
   app.add("--bridge", options->bridge, "Address of Looking Glass Bridge")
       .valueName("URL")
       .showDefault();
-  app.add("--address", options->address, "Address of viewloomd's page, as Bridge reaches it")
+  app.add("--address", options->address,
+          "Address of viewloomd's page, as Bridge reaches it; https:// for TLS")
       .valueName("URL")
       .showDefault();
   app.add("--preset", options->preset,
@@ -211,7 +227,7 @@ RunCommand addCastCommand(const usage::Command& app) {
       .valueName("SECONDS")
       .between(0.1, 600.0)
       .showDefault();
-  return [options](const CommonOptions& common) -> int { return run(*options, common.token); };
+  return [options](const CommonOptions& common) -> int { return run(*options, common); };
 }
 
 }  // namespace viewloom::cli

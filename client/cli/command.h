@@ -34,6 +34,7 @@ using RunCommand = std::function<int(const CommonOptions&)>;
 struct NamedCommand {
   usage::Command syntax;
   RunCommand run;
+  bool calls_server = true;  // that --server names; false: it reads the options of TLS by itself
 };
 
 }  // namespace viewloom::cli

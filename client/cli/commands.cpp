@@ -10,7 +10,7 @@ std::vector<NamedCommand> addCommands(const usage::Command& app) {
   std::vector<NamedCommand> commands;
   const auto add = [&](const char* name, const char* description, auto add_command) {
     const usage::Command command = app.addCommand(name, description);
-    commands.push_back({command, add_command(command)});
+    commands.push_back({.syntax = command, .run = add_command(command)});
   };
   add("publish", "Publish files, a folder, a recording or a built-in scene as a stream",
       addPublishCommand);
@@ -24,6 +24,7 @@ std::vector<NamedCommand> addCommands(const usage::Command& app) {
       addAdviseCommand);
   add("list", "List the streams, displays and presets of a server", addListCommand);
   add("cast", "Show a stream on a Looking Glass through Looking Glass Bridge", addCastCommand);
+  commands.back().calls_server = false;
   app.footer(
       "Examples:\n"
       "  viewloom publish --synthetic                     publish the built-in scene as \"demo\"\n"

@@ -35,10 +35,11 @@ int run(int argc, char** argv) {
     return kExitDone;
   }
   if (const std::optional<int> code = app.parse(argc, argv)) return *code;
-  if (const std::optional<int> code = readServerOptions(common)) return *code;
   catchInterrupts();
   for (const NamedCommand& command : commands) {
-    if (command.syntax.wasNamed()) return command.run(common);
+    if (!command.syntax.wasNamed()) continue;
+    const auto code = command.calls_server ? readServerOptions(common) : std::nullopt;
+    return code ? *code : command.run(common);
   }
   return kExitUsage;
 }

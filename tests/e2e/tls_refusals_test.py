@@ -2,8 +2,14 @@
 """Servers, clients and settings that encryption keeps apart, each with one sentence that says why.
 Arguments: viewloomd, viewloom."""
 import http.client
+import json
+import pathlib
 import ssl
+import threading
 import unittest
+import urllib.parse
+
+import grpc
 
 from tls_case import CLIENT, TWO_NAMES, TlsCase, fingerprint_of, run
 import viewloomd
@@ -67,6 +73,32 @@ class TlsRefusals(TlsCase):
                             "--tls.client_required", "false")
         self.assertEqual(self.get(server, "/healthz")[0], 200)
         self.assertEqual(self.get(server, "/healthz", *own)[0], 200)
+
+    def test_web_clients_count_by_their_certificate(self):
+        self.make(*TWO_NAMES)
+        own = self.make_clients("lab")
+        server = self.serve("--tls.client_ca", str(self.folder / "lab.crt"), "--memory.budget",
+                            "1500000000")
+        certificate, key = (pathlib.Path(file).read_bytes() for file in own)
+        trusted = grpc.ssl_channel_credentials(self.certificate.read_bytes(), key, certificate)
+        held = threading.Event()
+
+        def settings():
+            yield b"\x0a\x03\x0a\x01s"  # PublishFramesRequest: settings, with the stream "s"
+            held.wait()
+
+        with grpc.secure_channel(f"localhost:{self.ports(server)[0]}", trusted) as channel:
+            call = channel.stream_stream("/viewloom.v1.IngestService/PublishFrames")(settings())
+            next(call)
+            display = {"quilt": {"columns": 4, "rows": 4, "size": {"width": 16384,
+                                                                   "height": 16384}}}
+            target = "/still/s.jpg?display=" + urllib.parse.quote(json.dumps(display))
+            status, text = self.get(server, target, *own)
+            self.assertEqual(status, 302, text)  # to the name that says the layout
+            status, text = self.get(server, text.split()[1], *own)
+            held.set()
+        self.assertEqual(status, 503, text)
+        self.assertIn("left for CN=publisher-1", text)
 
     # Before the server listens.
 

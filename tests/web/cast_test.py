@@ -171,6 +171,10 @@ class Refusals(CastTest):
         self.assertEqual(process.returncode, FAILED)
         self.assertIn("answered no HTTP", error)
 
+    def test_options_of_tls_want_https(self):
+        self.check_refusal(self.cast("--fingerprint", 32 * "00"), USAGE, "--fingerprint is given",
+                           "write it as https://HOST:PORT")
+
     def test_nobody_there(self):
         nobody = f"http://127.0.0.1:{free_port()}"
         self.check_refusal(self.cast(bridge=nobody), NO_SERVER, "no Bridge at " + nobody,
@@ -220,13 +224,14 @@ class Refusals(CastTest):
                            "--address names the page of a viewloomd")
 
     def test_addresses_that_are_none(self):
-        for address in ("localhost", "https://localhost", "http://", "http://a b",
-                        "http://a:0", "http://a:99999", "http://a:b", "http://a/b", "http://[::1",
-                        "http://[g]/", "http://u@a"):
+        for address in ("localhost", "http://", "http://a b", "http://a:0", "http://a:99999",
+                        "http://a:b", "http://a/b", "http://[::1", "http://[g]/", "http://u@a"):
             with self.subTest(address):
                 for option in ("bridge", "address"):
                     self.check_refusal(self.cast(**{option: address}), USAGE, "--" + option,
                                        "accepted is http://HOST")
+        self.check_refusal(self.cast(bridge="https://localhost"), USAGE, "--bridge",
+                           "accepted is http://HOST")
 
     def test_an_address_that_the_bridge_cannot_reach(self):
         self.check_refusal(self.cast(bridge="http://192.0.2.7"), USAGE, "192.0.2.7",

@@ -15,6 +15,7 @@
 #include <viewloom/retry_loop.h>
 #include <viewloom/server_clock.h>
 #include <viewloom/status.h>
+#include <viewloom/tls_options.h>
 #include <viewloom/watcher.h>
 #include <viewloom/wire_frame.h>
 

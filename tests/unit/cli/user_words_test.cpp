@@ -71,11 +71,11 @@ TEST(UserWords, standInTheHelpOfEveryCommand) {
       "\\b(trac(e|es|ed|ing)|drain(s|ed|ing)?|slots?|structs?|enums?|ENUM|payload|protobuf|"
       "FrameManifest|TruthManifest|DEPTH_MEANING_\\w+|PLANE_ENCODING_\\w+|null|boolean)\\b");
   const usage::CommandLine app;
-  for (const auto& [command, run] : addCommands(app)) {
-    const std::string help = command.help();
+  for (const NamedCommand& named : addCommands(app)) {
+    const std::string help = named.syntax.help();
     std::smatch word;
     EXPECT_FALSE(std::regex_search(help, word, of_developers))
-        << command.name() << ": " << word.str();
+        << named.syntax.name() << ": " << word.str();
   }
 }
 
