@@ -17,9 +17,11 @@ constexpr uint64_t kMiB = uint64_t{1} << 20;
 // Where the system does not say how much it has.
 constexpr uint64_t kUnknownMachine_bytes = 4096 * kMiB;
 // Kernels that are compiled on the first use of each kind of display: of a CPU renderer, machine
-// code in this process; of a graphics card, what its driver keeps.
+// code in this process; of a graphics card, what its driver keeps. A small server reserves a part
+// of its budget; what its kernels take beyond that is charged when it is seen (UnpricedMemory).
 constexpr uint64_t kCpuKernels_bytes = 320 * kMiB;
 constexpr uint64_t kGpuKernels_bytes = 64 * kMiB;
+constexpr uint64_t kKernelsPart = 4;
 constexpr uint64_t kMessagesMost_bytes = 256 * kMiB;
 constexpr int64_t kStreamKept_ns = 5'000'000'000;
 constexpr uint64_t kIdleStreamsPart = 32;
@@ -56,17 +58,35 @@ uint64_t leastBytes(const PreparedBytes& prepared_bytes) {
          display.displayBytes() + display.viewerBytes() + display.making_bytes + kConnectionBytes;
 }
 
-void requireRoomForOne(const MemoryBudget& budget, const PreparedBytes& prepared_bytes) {
-  const uint64_t needed_bytes = leastBytes(prepared_bytes);
+uint64_t kernelBytes(uint64_t budget_bytes, bool compiles_on_cpu) {
+  return std::min(compiles_on_cpu ? kCpuKernels_bytes : kGpuKernels_bytes,
+                  budget_bytes / kKernelsPart);
+}
+
+// The least budget with room for one client, whole MiB.
+uint64_t smallestBudgetMiB(uint64_t program_bytes, uint64_t needed_bytes, bool compiles_on_cpu) {
+  uint64_t budget_bytes = 0;
+  // The server's own part grows with the budget by three eighths at most, so that this converges.
+  for (int round = 0; round < 30; ++round) {
+    const uint64_t own_bytes =
+        program_bytes + kernelBytes(budget_bytes, compiles_on_cpu) + messageBytesMax(budget_bytes);
+    // One client gets three quarters at most; a twentieth for rounding and growth.
+    budget_bytes = (own_bytes + needed_bytes * 4 / 3) * 21 / 20;
+  }
+  return budget_bytes / kMiB + 1;
+}
+
+// `program_bytes`: of this process before its kernels.
+void requireRoomForOne(const MemoryBudget& budget, uint64_t needed_bytes, uint64_t program_bytes,
+                       bool compiles_on_cpu) {
   if (budget.mostForOne() >= needed_bytes) return;
-  // One client gets three quarters at most; a twentieth for rounding and growth.
-  const uint64_t smallest_bytes = (budget.reservedBytes() + needed_bytes * 4 / 3) * 21 / 20;
+  const uint64_t smallest_mib = smallestBudgetMiB(program_bytes, needed_bytes, compiles_on_cpu);
   throw std::runtime_error(strCat(
       "memory.budget is ", memoryText(budget.totalBytes()), ", of which the server itself takes ",
       memoryText(budget.reservedBytes()), "; one frame of ", kSmallFrame_px.width, "x",
-      kSmallFrame_px.height, " px and one display need a budget of at least ",
-      smallest_bytes / kMiB, " MiB. Give --memory.budget ", (smallest_bytes / kMiB + 1) * kMiB,
-      ", or more memory to the machine or container"));
+      kSmallFrame_px.height, " px and one display need a budget of at least ", smallest_mib,
+      " MiB. That is the default of a machine or container of ", smallest_mib * 4 / 3 + 1,
+      " MiB. Give it more memory, or give --memory.budget ", smallest_mib * kMiB));
 }
 
 void note(const Metrics& metrics, const MemoryBudget& budget) {
@@ -111,16 +131,20 @@ uint64_t IdleStreams::releaseIdle(std::chrono::nanoseconds unused_for) {
 ServiceMemory::ServiceMemory(MemoryBudget& budget, StreamDirectory& directory,
                              const Metrics& metrics, const PreparedBytes& prepared_bytes,
                              bool compiles_on_cpu)
-    : program_(budget.charge(
-          MemoryUse::kProgram,
-          residentBytes() + (compiles_on_cpu ? kCpuKernels_bytes : kGpuKernels_bytes))),
+    : program_(budget.charge(MemoryUse::kProgram, residentBytes())),
+      kernels_(
+          budget.charge(MemoryUse::kProgram, kernelBytes(budget.totalBytes(), compiles_on_cpu))),
       messages_(budget.charge(MemoryUse::kMessages, messageBytesMax(budget.totalBytes()))),
+      unpriced_(budget),
       idle_streams_(std::make_shared<IdleStreams>(budget, directory)) {
-  requireRoomForOne(budget, prepared_bytes);
+  requireRoomForOne(budget, leastBytes(prepared_bytes), program_.bytes(), compiles_on_cpu);
   log(LogLevel::kInfo, "memory: ", memoryText(budget.totalBytes()), ", of which the server takes ",
       memoryText(budget.reservedBytes()));
   budget.addIdle(idle_streams_);
-  unused_.emplace(budget, [&budget, &metrics] { note(metrics, budget); });
+  unused_.emplace(budget, [this, &budget, &metrics] {
+    unpriced_.note(ownResidentBytes());
+    note(metrics, budget);
+  });
 }
 
 }  // namespace viewloom

@@ -11,6 +11,7 @@
 #include "admission/frame_price.h"
 #include "admission/memory_budget.h"
 #include "admission/memory_return.h"
+#include "admission/unpriced_memory.h"
 #include "config/config.h"
 #include "metrics/metrics.h"
 #include "publish/stream_directory.h"
@@ -53,7 +54,9 @@ class ServiceMemory {
 
  private:
   const Reservation program_;
+  const Reservation kernels_;
   const Reservation messages_;
+  UnpricedMemory unpriced_;  // used by the thread of unused_ alone
   const std::shared_ptr<IdleStreams> idle_streams_;
   std::optional<MemoryReturn> unused_;  // last: its thread uses what is above
 };

@@ -78,6 +78,21 @@ uint64_t cgroupBytes(const fs::path& root) {
   return least_bytes;
 }
 
+struct Resident {
+  uint64_t all_bytes = 0;
+  uint64_t of_files_bytes = 0;
+};
+
+Resident readResident() {
+  std::ifstream stream("/proc/self/statm");
+  uint64_t all_pages = 0;
+  uint64_t resident_pages = 0;
+  uint64_t file_pages = 0;
+  if (!(stream >> all_pages >> resident_pages >> file_pages)) return {};
+  const auto page_bytes = uint64_t(::sysconf(_SC_PAGESIZE));
+  return {.all_bytes = resident_pages * page_bytes, .of_files_bytes = file_pages * page_bytes};
+}
+
 }  // namespace
 
 uint64_t machineMemoryBytes(const fs::path& root) {
@@ -86,11 +101,12 @@ uint64_t machineMemoryBytes(const fs::path& root) {
 }
 
 uint64_t residentBytes() {
-  std::ifstream stream("/proc/self/statm");
-  uint64_t all_pages = 0;
-  uint64_t resident_pages = 0;
-  if (!(stream >> all_pages >> resident_pages)) return 0;
-  return resident_pages * uint64_t(::sysconf(_SC_PAGESIZE));
+  return readResident().all_bytes;
+}
+
+uint64_t ownResidentBytes() {
+  const Resident resident = readResident();
+  return resident.all_bytes - resident.of_files_bytes;
 }
 
 }  // namespace viewloom

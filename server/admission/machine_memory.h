@@ -13,5 +13,7 @@ uint64_t machineMemoryBytes(const std::filesystem::path& root = "/");
 
 // Bytes of this process that lie in memory. 0 = the system does not say.
 uint64_t residentBytes();
+// The same without files, such as programs and libraries: the system can drop those.
+uint64_t ownResidentBytes();
 
 }  // namespace viewloom
