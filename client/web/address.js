@@ -9,6 +9,11 @@ export function pageParameters() {
   return new URLSearchParams(location.search);
 }
 
+// Whether this page comes from the machine on which it is shown.
+export function isOnLoopback() {
+  return ['localhost', '127.0.0.1', '[::1]'].includes(location.hostname);
+}
+
 // A choice made by hand is kept, so that a reload and a link show the same; null = not there.
 export function keepInAddress(changes) {
   const parameters = pageParameters();
@@ -34,4 +39,16 @@ export function askedPath({stream, display, encoding}) {
   else parameters.set('display', JSON.stringify(display));
   if (Object.keys(encoding).length > 0) parameters.set('encoding', JSON.stringify(encoding));
   return `ws?${parameters}`;
+}
+
+// "still/STREAM/portrait" or "stream/STREAM.mjpg?display=...": the picture of a display. root:
+// 'still' or 'stream', extension: '.jpg' or '.mjpg'.
+export function picturePath(root, extension, {stream, display, encoding}) {
+  const name = nameOf(display);
+  const path = name ? `/${encodeURIComponent(name)}` : extension;
+  const parameters = new URLSearchParams();
+  if (!name) parameters.set('display', JSON.stringify(display));
+  if (Object.keys(encoding).length > 0) parameters.set('encoding', JSON.stringify(encoding));
+  const query = parameters.toString();
+  return `${root}/${encodeURIComponent(stream)}${path}${query && `?${query}`}`;
 }

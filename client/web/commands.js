@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Commands and addresses to watch the same stream elsewhere.
-import {askedPath, nameOf} from './address.js';
+import {askedPath, isOnLoopback, nameOf, picturePath} from './address.js';
+import {copy} from './copy.js';
+import {Share} from './share.js';
 
 const kGrpcPort = 50051;  // viewloomd's own; the page cannot know another
-const kLoopback = ['localhost', '127.0.0.1', '[::1]'];
 
 const byId = (id) => document.getElementById(id);
 
@@ -15,7 +16,7 @@ function quoted(text) {
 // asked: {stream, display, encoding}
 function watchCommand({stream, display, encoding}) {
   const words = ['viewloom'];
-  if (!kLoopback.includes(location.hostname)) {
+  if (!isOnLoopback()) {
     words.push('--server', `${location.hostname}:${kGrpcPort}`);
   }
   words.push('watch', stream);
@@ -27,14 +28,8 @@ function watchCommand({stream, display, encoding}) {
 }
 
 // The server tells curl the file's name.
-function stillCommand({stream, display, encoding}) {
-  const name = nameOf(display);
-  const path = name ? `/${encodeURIComponent(name)}` : '.jpg';
-  const url = new URL(`still/${encodeURIComponent(stream)}${path}`, location.href);
-  if (!name) url.searchParams.set('display', JSON.stringify(display));
-  if (Object.keys(encoding).length > 0) {
-    url.searchParams.set('encoding', JSON.stringify(encoding));
-  }
+function stillCommand(asked) {
+  const url = new URL(picturePath('still', '.jpg', asked), location.href);
   return `curl -L -O -J ${quoted(url.href)}`;
 }
 
@@ -44,20 +39,9 @@ function socketAddress(asked) {
   return url.href;
 }
 
-async function copy(field, button) {
-  field.select();
-  let isCopied = false;
-  try {
-    await navigator.clipboard.writeText(field.value);
-    isCopied = true;
-  } catch {  // pages by plain http from elsewhere have no clipboard, only what is selected
-    isCopied = document.execCommand('copy');
-  }
-  button.textContent = isCopied ? 'Copied' : 'Selected';
-  setTimeout(() => { button.textContent = 'Copy'; }, 1500);
-}
-
 export class Commands {
+  #share = new Share();
+
   constructor() {
     for (const name of ['watch', 'still', 'socket']) {
       const [field, button] = [byId(`command-${name}`), byId(`copy-${name}`)];
@@ -68,6 +52,7 @@ export class Commands {
 
   // asked: {stream, display, encoding}, the latter messages as JSON
   show(asked) {
+    this.#share.show(asked);
     const texts = {
       watch: watchCommand(asked),
       still: stillCommand(asked),

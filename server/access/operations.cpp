@@ -19,6 +19,7 @@ constexpr std::array kOperations = {
     Operation{kStills, Need::kRole, Role::kWatch, Reach::kStream},
     Operation{kPlayers, Need::kRole, Role::kWatch, Reach::kStream},
     Operation{kApiLink, Need::kRole, Role::kWatch, Reach::kStream},
+    Operation{kApiQr, Need::kRole, Role::kWatch, Reach::kStream},
     Operation{kApiStreams, Need::kIdentity, {}, Reach::kVisible},
     Operation{kApiDisplays, Need::kIdentity, {}, Reach::kVisible},
     Operation{kApiPresets, Need::kIdentity, {}, Reach::kServer},

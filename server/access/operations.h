@@ -47,6 +47,7 @@ inline constexpr std::string_view kApiDisplays = "/api/displays";
 inline constexpr std::string_view kApiPresets = "/api/presets";
 inline constexpr std::string_view kApiFields = "/api/fields";
 inline constexpr std::string_view kApiLink = "/api/link";
+inline constexpr std::string_view kApiQr = "/api/qr";
 inline constexpr std::string_view kApiSession = "/api/session";
 inline constexpr std::string_view kMetricsPage = "/metrics";
 inline constexpr std::string_view kHealthPage = "/healthz";

@@ -17,11 +17,11 @@
 #include "certificates/server_address.h"
 #include "commands/command.h"
 #include "commands/contained_serve.h"
-#include "commands/qr_code.h"
 #include "commands/reachable_addresses.h"
 #include "containment/containment.h"
 #include "service.h"
 #include "usage/command_line.h"
+#include "web/qr_code.h"
 
 namespace viewloom {
 namespace {

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/admission.h"
 
+#include <algorithm>
 #include <charconv>
 #include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include "absl/strings/ascii.h"
 #include "access/utc_time.h"
 #include "admission/display_price.h"
+#include "base/printable.h"
 #include "base/str_cat.h"
+#include "web/qr_code.h"
 #include "web/session.h"
 
 namespace viewloom {
@@ -16,6 +20,7 @@ namespace {
 
 constexpr const char* kLinkParameter = "link";
 constexpr int64_t kUsualLinkSeconds = 300;
+constexpr int kQrBytesMax = 2953;  // of version 40, level L
 
 LinkTarget targetOf(const WatchRequest& request) {
   return {.stream = request.stream,
@@ -62,14 +67,40 @@ absl::StatusOr<QuiltAddressForm> formOf(const std::string& path) {
                       "is no address of a picture; accepted are /still/... and /stream/...");
 }
 
+bool isPath(std::string_view text) {
+  return std::ranges::all_of(text, [](char c) {
+    return absl::ascii_isalnum(static_cast<unsigned char>(c)) ||
+           std::string_view("/._~-%").find(c) != std::string_view::npos;
+  });
+}
+
+// The address of this server's page, as the client reaches it: a proxy may serve it below a path.
+// A code leads to this server only.
+absl::StatusOr<std::string> pageOf(const HttpRequest& request, const QueryParameters& parameters) {
+  const auto found = parameters.find("page");
+  if (found == parameters.end()) {
+    return strCat(request.is_encrypted ? "https://" : "http://", request.host, "/");
+  }
+  const std::string& page = found->second;
+  for (const char* scheme : {"http://", "https://"}) {
+    const std::string begin = strCat(scheme, request.host, "/");
+    const bool is_below = page.starts_with(begin) && page.ends_with('/');
+    if (is_below && isPath(std::string_view(page).substr(begin.size()))) return page;
+  }
+  return invalidField("page", strCat("got \"", quotable(page),
+                                     "\"; accepted is the address of this "
+                                     "server's page, such as https://",
+                                     request.host, "/"));
+}
+
 struct MadeLink {
   std::string url;
   int64_t expires_s = 0;
 };
 
 absl::StatusOr<MadeLink> makeLink(const WebContext& context, const HttpRequest& request,
-                                  const QueryParameters& parameters) {
-  const absl::StatusOr<Caller> caller = admitRequest(context, request, kApiLink);
+                                  std::string_view operation, const QueryParameters& parameters) {
+  const absl::StatusOr<Caller> caller = admitRequest(context, request, operation);
   VIEWLOOM_RETURN_IF_ERROR(caller.status());
   const auto target = parameters.find("target");
   if (target == parameters.end()) {
@@ -132,20 +163,36 @@ absl::StatusOr<AdmittedPicture> admitPicture(const WebContext& context, const Ht
 absl::StatusOr<QuotaPartPtr> holdDisplay(const WebContext& context, const Caller& caller,
                                          const WatchRequest& request, const QuotaPart* replaced) {
   const auto& [stream, display, encoding] = request;
-  absl::StatusOr<QuotaPartPtr> held = caller.holdDisplay(
-      {.key = strCat(stream, " ", displayKey(display), encodingKey(encoding)),
-       .pixels = atlasPixels(display),
-       .rate_hz = pictureRate(display, context.streams.rateHz(stream))},
-      replaced);
+  absl::StatusOr<QuotaPartPtr> held =
+      caller.holdDisplay({.key = strCat(stream, " ", displayKey(display), encodingKey(encoding)),
+                          .pixels = atlasPixels(display),
+                          .rate_hz = pictureRate(display, context.streams.rateHz(stream))},
+                         replaced);
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(held.status(), "display"));
   return held;
 }
 
 HttpReply answerLink(const WebContext& context, const HttpRequest& request, const Url& url) {
-  const absl::StatusOr<MadeLink> link = makeLink(context, request, url.parameters);
+  const absl::StatusOr<MadeLink> link = makeLink(context, request, kApiLink, url.parameters);
   if (!link.ok()) return errorReply(link.status());
   return jsonReply(
       nlohmann::json{{"url", link->url}, {"expires", utcText(link->expires_s)}}.dump());
+}
+
+HttpReply answerQr(const WebContext& context, const HttpRequest& request, const Url& url) {
+  const absl::StatusOr<std::string> page = pageOf(request, url.parameters);
+  if (!page.ok()) return errorReply(page.status());
+  const absl::StatusOr<MadeLink> link = makeLink(context, request, kApiQr, url.parameters);
+  if (!link.ok()) return errorReply(link.status());
+  const std::string address = strCat(*page, link->url.substr(1));
+  HttpReply reply;
+  reply.type = "image/svg+xml";
+  reply.headers = {{"Cache-Control", "no-store"}};
+  reply.text = qrPicture(address, utcText(link->expires_s));
+  if (!reply.text.empty()) return reply;
+  return errorReply(invalidField(
+      "target", strCat("the link has ", address.size(), " bytes; a QR code holds up to ",
+                       kQrBytesMax, ". Choose a preset instead of a display of your own")));
 }
 
 }  // namespace viewloom

@@ -41,5 +41,8 @@ absl::StatusOr<QuotaPartPtr> holdDisplay(const WebContext& context, const Caller
 // Answers /api/link?target=ADDRESS&seconds=300: the address of a picture, with a link that shows it
 // to whoever has it.
 HttpReply answerLink(const WebContext& context, const HttpRequest& request, const Url& url);
+// Answers /api/qr?target=ADDRESS&seconds=300&page=https://HOST/: the same link below the address of
+// this server's page, as the picture of a QR code.
+HttpReply answerQr(const WebContext& context, const HttpRequest& request, const Url& url);
 
 }  // namespace viewloom

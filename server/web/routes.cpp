@@ -77,16 +77,16 @@ HttpReply webSocketReply(const WebContext& context, const HttpRequest& request, 
 }
 
 HttpReply notFoundReply(const std::string& path) {
-  std::vector<std::string> known = {"/api/streams", "/api/displays", "/api/presets",
-                                    "/api/fields",  "/api/link",     "/api/session",
-                                    "/metrics",     "/healthz",      "/ws"};
+  std::vector<std::string> known = {
+      "/api/streams", "/api/displays", "/api/presets", "/api/fields", "/api/link",
+      "/api/qr",      "/api/session",  "/metrics",     "/healthz",    "/ws"};
   for (const PageAsset& asset : pageAssets()) known.emplace_back(asset.path);
   const std::string suggestion = didYouMean(path, known);
   return errorReply(fieldError(
       absl::StatusCode::kNotFound, "url",
       strCat("there is no page \"", quotable(path),
              "\"; known pages: /, /api/streams, /api/displays, /api/presets, /api/fields, "
-             "/api/link, /api/session, /metrics, /healthz, /still/STREAM/PRESET, "
+             "/api/link, /api/qr, /api/session, /metrics, /healthz, /still/STREAM/PRESET, "
              "/stream/STREAM/PRESET, /ws?stream=STREAM",
              suggestion.empty() ? "" : "; ", suggestion)));
 }
@@ -127,6 +127,7 @@ net::awaitable<HttpReply> route(WebContext& context, HttpRequest request) {
   if (url->path == kHealthPage) co_return healthReply(context);
   if (url->path == kApiSession) co_return answerSession(context, request);
   if (url->path == kApiLink) co_return answerLink(context, request, *url);
+  if (url->path == kApiQr) co_return answerQr(context, request, *url);
   if (url->path == kWebSocket) co_return webSocketReply(context, request, *url);
   if (url->path.starts_with(kStills)) co_return co_await answerStill(context, request, *url);
   if (url->path.starts_with(kPlayers)) co_return answerStream(context, request, *url);

@@ -3,6 +3,7 @@
 import hashlib
 import json
 import os
+import re
 import secrets
 import sys
 import tempfile
@@ -73,6 +74,7 @@ class SignInTest(TokenCase):
             self.assertEqual(self.status(target), 200, target)
         for target in ("/api/streams", "/api/displays", "/api/presets", "/api/fields", "/metrics",
                        "/api/session", "/api/link?target=/still/painted/portrait",
+                       "/api/qr?target=/still/painted/portrait",
                        "/still/painted/portrait", "/stream/painted/portrait",
                        "/ws?stream=painted", "/api/streams?token=" + self.watch):
             reply = self.ask(target)
@@ -121,6 +123,32 @@ class SignInTest(TokenCase):
         time.sleep(1.5)
         self.assertEqual(self.status(link), 401)
 
+    def test_a_code_leads_to_this_server_only(self):
+        target = quote("/stream/painted/portrait?width=800&height=600")
+        ask = f"/api/qr?seconds=60&target={target}"
+        host = f"127.0.0.1:{self.server.port}"
+        self.assertEqual(self.status(ask), 401)
+        self.assertEqual(self.status(ask, self.operate), 403)
+        for page in ("", f"http://{host}/", f"https://{host}/below/"):
+            reply = self.ask(ask + (f"&page={quote(page, '')}" if page else ""), self.watch)
+            self.assertEqual((reply.status, reply.headers["content-type"]), (200, "image/svg+xml"))
+            begin = page or f"http://{host}/"
+            link = re.search(r"<title>(.*)</title>", reply.body.decode()).group(1)
+            link = link.replace("&amp;", "&")
+            self.assertTrue(link.startswith(f"{begin}stream/painted_qs8x6"), link)
+            path = "/" + link.removeprefix(begin)
+            self.assertEqual(self.status(path, method="HEAD"), 200)
+            self.assertIn(self.status(path[:-4] + "AAAA", method="HEAD"), (400, 401))
+        for page in ("http://evil.example/", f"http://{host}.evil.example/", f"http://{host}",
+                     f"http://{host}/a?b/", f"javascript://{host}/"):
+            reply = self.ask(f"{ask}&page={quote(page, '')}", self.watch)
+            self.assertEqual(reply.status, 400, page)
+            self.assertEqual(reply.json()["error"]["field"], "page")
+        display = quote('{"quilt": {"preset": "portrait"}}' + " " * 3000)
+        reply = self.ask(f"/api/qr?target={quote('/stream/painted.mjpg?display=' + display)}",
+                         self.watch)
+        self.assertIn(reply.status, (400, 431))
+
     def upgrade(self, *protocols):
         socket = WebSocket(self.server.port,
                            "/ws?" + asked(preset="portrait", width=160, height=120),
@@ -160,6 +188,22 @@ class PageTest(TokenCase):
         self.browser.open(self.server.url + "#token=" + self.watch)
         self.browser.wait_for(LIVE)
         self.assertEqual(self.browser.evaluate("location.hash"), "")
+
+    def test_share_shows_a_link_that_needs_no_token(self):
+        self.browser.open(self.server.url + "?preset=portrait&width=800&height=600#token=" +
+                          self.watch)
+        self.browser.wait_for(LIVE)
+        self.browser.evaluate("document.getElementById('share').click()")
+        self.browser.wait_for("!document.getElementById('shared').hidden && "
+                              "document.getElementById('shared-code').naturalWidth > 0")
+        link = self.browser.evaluate("document.getElementById('shared-link').value")
+        self.assertTrue(link.startswith(self.server.url + "stream/painted_qs8x6"), link)
+        path = "/" + link.removeprefix(self.server.url)
+        self.assertEqual(fetch(self.server.port, path, "HEAD", {}).status, 200)
+        self.assertEqual(fetch(self.server.port, path.split("&link=")[0], "HEAD", {}).status, 401)
+        self.browser.evaluate("document.getElementById('shared-close').click()")
+        self.assertEqual(
+            self.browser.evaluate("document.getElementById('shared-link').value"), "")
 
     def enter(self, token):
         self.browser.evaluate(f"document.getElementById('token').value = {json.dumps(token)};"

@@ -73,6 +73,7 @@ constexpr Row kMatrix[] = {
     {kStills, false, true, false, false, true},
     {kPlayers, false, true, false, false, true},
     {kApiLink, false, true, false, false, true},
+    {kApiQr, false, true, false, false, true},
     {kApiStreams, true, true, true, false, false},
     {kApiDisplays, true, true, true, false, false},
     {kApiPresets, true, true, true, false, false},

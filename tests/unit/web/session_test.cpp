@@ -160,6 +160,7 @@ TEST_F(Session, makesNoOtherLinks) {
   EXPECT_EQ(link("/still/room.2/portrait").status, 404U);
   EXPECT_EQ(link("/metrics").status, 400U);
   EXPECT_EQ(link("").status, 400U);
+  EXPECT_EQ(answerQr(*context_, {.host = "h"}, {.path = "/api/qr", .parameters = {}}).status, 401U);
   EXPECT_EQ(answerLink(*context_, {}, {.path = "/api/link", .parameters = {}}).status, 401U);
 }
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "commands/qr_code.h"
+#include "web/qr_code.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -45,8 +48,40 @@ TEST(QrCode, hasItsFinderPatternsAndAQuietBorder) {
   EXPECT_EQ(rows[20].substr(2, 7), "1111111");
 }
 
+// Modules of a picture, without its border. The path has a rectangle for each run of a row.
+std::vector<std::string> rowsOfPicture(const std::string& picture) {
+  const std::string begin = "<path d=\"";
+  const size_t first = picture.find(begin) + begin.size();
+  const std::string path = picture.substr(first, picture.find('"', first) - first);
+  std::vector<std::string> rows(25, std::string(25, '0'));
+  for (size_t at = 0; at < path.size(); at = path.find('z', at) + 1) {
+    int column = 0;
+    int row = 0;
+    int count = 0;
+    EXPECT_EQ(std::sscanf(path.c_str() + at, "M%d %dh%dv1h-", &column, &row, &count), 3);
+    rows.at(size_t(row)).replace(size_t(column), size_t(count), size_t(count), '1');
+  }
+  return rows;
+}
+
+TEST(QrPicture, hasTheModulesOfTheLines) {
+  const std::string address = "https://10.0.0.5:8080/";
+  const std::vector<std::string> lines = rowsOf(qrCode(address));
+  const std::vector<std::string> picture = rowsOfPicture(qrPicture(address, ""));
+  for (size_t row = 0; row < picture.size(); ++row) {
+    EXPECT_EQ(picture[row], lines[row + 2].substr(2, 25)) << row;
+  }
+}
+
+TEST(QrPicture, saysWhatItShows) {
+  const std::string picture = qrPicture("https://a/?b=1&c=<>", "until 2027");
+  EXPECT_NE(picture.find("<title>https://a/?b=1&amp;c=&lt;&gt;</title>"), std::string::npos);
+  EXPECT_NE(picture.find("<desc>until 2027</desc>"), std::string::npos);
+}
+
 TEST(QrCode, isEmptyForTextsThatFitInNone) {
   EXPECT_EQ(qrCode(std::string(4000, 'a')), "");
+  EXPECT_EQ(qrPicture(std::string(4000, 'a'), ""), "");
 }
 
 }  // namespace
