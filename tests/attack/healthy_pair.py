@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
-"""A publisher of 10 Hz and one viewer of a small quilt, which an attack must not disturb.
+"""A publisher and one viewer of a small quilt, which an attack must not disturb.
 
-Argument: HOST:PORT. Prints "ready" when pictures come. Each line on standard input begins a new
-count; its answer is what was due, what was seen, and the longest gap, as JSON. The end of the input
-ends the pair.
+Prints "ready" when pictures come. Each line on standard input begins a new count; its answer is
+what was due, what was seen, what was dropped, the longest gap, and how old pictures were when they
+came, as JSON. The end of the input ends the pair.
 """
 
+import argparse
 import json
 import sys
 import threading
@@ -34,25 +35,33 @@ class Count:
 
     def __init__(self):
         self.begun_s = self.last_s = time.monotonic()
-        self.due = self.seen = 0
+        self.due = self.seen = self.dropped = 0
         self.longest_gap_s = 0.0
+        self.ages_s = []
 
-    def see(self):
+    def see(self, atlas):
         now_s = time.monotonic()
         self.longest_gap_s = max(self.longest_gap_s, now_s - self.last_s)
         self.last_s = now_s
         self.seen += 1
+        self.dropped += atlas.skipped
+        self.ages_s.append((time.time_ns() - atlas.header.capture_time_ns) * 1e-9)
 
     def result(self):
         gap_s = max(self.longest_gap_s, time.monotonic() - self.last_s)
-        return {"due": self.due, "seen": self.seen, "longest_gap_s": round(gap_s, 3)}
+        ages_s = sorted(self.ages_s) or [float("inf")]
+        return {"due": self.due, "seen": self.seen, "dropped": self.dropped,
+                "longest_gap_s": round(gap_s, 3),
+                "age_p99_s": round(ages_s[int(0.99 * (len(ages_s) - 1))], 4)}
 
 
 class Pair:
-    def __init__(self, address):
+    def __init__(self, words):
+        self.words = words
+        self.display = json.loads(words.display) if words.display else QUILT
         self.count = Count()
         self.stopping = threading.Event()
-        self.server = viewloom.connect(address)
+        self.server = viewloom.connect(words.address)
         self.first_picture = threading.Event()
         self.threads = [threading.Thread(target=self.publish, daemon=True),
                         threading.Thread(target=self.watch, daemon=True)]
@@ -60,25 +69,29 @@ class Pair:
             thread.start()
 
     def publish(self):
-        with self.server.publish("healthy") as publisher:
+        with self.server.publish(self.words.stream) as publisher:
             number, next_s = 0, time.monotonic()
             while not self.stopping.wait(max(0, next_s - time.monotonic())):
-                next_s = max(next_s + 1 / RATE_HZ, time.monotonic() - 1)
+                next_s = max(next_s + 1 / self.words.rate, time.monotonic() - 1)
                 number += 1
                 self.count.due += 1
                 publisher.send(source(number))
 
     def watch(self):
         time.sleep(0.5)  # the stream is there then
-        with self.server.watch("healthy", QUILT) as watcher:
+        with self.server.watch(self.words.stream, self.display) as watcher:
             while not self.stopping.is_set():
-                watcher.receive(60)
-                self.count.see()
+                self.count.see(watcher.receive(60))
                 self.first_picture.set()
 
 
-def main(address):
-    pair = Pair(address)
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("address", help="HOST:PORT")
+    parser.add_argument("--stream", default="healthy", help="its name")
+    parser.add_argument("--rate", type=float, default=RATE_HZ, help="frames a second")
+    parser.add_argument("--display", help="JSON of a Display, instead of the small quilt")
+    pair = Pair(parser.parse_args())
     if not pair.first_picture.wait(60):
         sys.exit("no picture came within 60 s")
     print("ready", flush=True)
@@ -89,4 +102,4 @@ def main(address):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    main()

@@ -19,7 +19,7 @@ import grpc
 import budget
 import connection_floods
 import judge
-import main
+import measure
 import message_floods
 import web_floods
 from target import Address, HealthyPair, Meter, Server
@@ -112,8 +112,8 @@ class Planted(unittest.TestCase):
                 time.sleep(STOP_S)
                 os.kill(server.process.pid, signal.SIGCONT)
 
-            a_row = main.measure(stop, server, pair, Meter(server.process.pid), server.address,
-                                 budget.SHORT)
+            a_row = measure.measure(stop, server, pair, Meter(server.process.pid), server.address,
+                                    budget.SHORT)
         self.assertIn("gap", self.found(a_row))
         self.assertIn("pictures", self.found(a_row))
 
@@ -121,10 +121,10 @@ class Planted(unittest.TestCase):
         with Server(PROGRAM) as server:
             pair = HealthyPair(server.address)
             self.addCleanup(pair.stop)
-            self.assertTrue(main.is_well(pair))
+            self.assertTrue(measure.is_well(pair))
             os.kill(server.process.pid, signal.SIGSTOP)
             try:
-                self.assertFalse(main.is_well(pair, patience_s=2))
+                self.assertFalse(measure.is_well(pair, patience_s=2))
             finally:
                 os.kill(server.process.pid, signal.SIGCONT)
 
@@ -137,8 +137,8 @@ class Planted(unittest.TestCase):
                 server.process.kill()
                 server.process.wait()
 
-            a_row = main.measure(end, server, pair, Meter(server.process.pid), server.address,
-                                 budget.SHORT)
+            a_row = measure.measure(end, server, pair, Meter(server.process.pid), server.address,
+                                    budget.SHORT)
         self.assertIn("the server ended", self.found(a_row))
 
     def test_memory_and_time_of_a_process_are_found(self):

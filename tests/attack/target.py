@@ -83,10 +83,12 @@ class Address:
 
 @dataclass
 class Server:
-    """viewloomd on free ports. descriptor_max: the limit of its open files."""
+    """viewloomd on free ports. descriptor_max: the limit of its open files. warms_up: it compiles
+    kernels after its start."""
     program: str
     descriptor_max: int = 1024
     settings: tuple = ()
+    warms_up: bool = False
     process: subprocess.Popen = field(init=False)
     address: Address = field(init=False)
 
@@ -94,7 +96,7 @@ class Server:
         limit = (self.descriptor_max, self.descriptor_max)
         self.process = subprocess.Popen(
             [self.program, "serve", "--grpc.address", "127.0.0.1:0", "--http.address",
-             "127.0.0.1:0", "--pipeline.warm_up", "false", *self.settings],
+             "127.0.0.1:0", "--pipeline.warm_up", str(self.warms_up).lower(), *self.settings],
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit))
         line = self.process.stdout.readline()
@@ -117,13 +119,15 @@ class Server:
 
 
 class HealthyPair:
-    """healthy_pair.py as a process."""
+    """healthy_pair.py as a process. token: who it is, if the server asks. options: of the script,
+    such as "--rate", "20"."""
 
-    def __init__(self, address):
+    def __init__(self, address, token="", options=()):
         script = Path(__file__).with_name("healthy_pair.py")
         self.process = subprocess.Popen(
-            [sys.executable, str(script), f"127.0.0.1:{address.grpc_port}"],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+            [sys.executable, str(script), f"127.0.0.1:{address.grpc_port}", *options],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+            env={**os.environ, "VIEWLOOM_TOKEN": token})
         if self.process.stdout.readline().strip() != "ready":
             raise RuntimeError("the healthy pair got no picture")
 
