@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Every detector of the overloads finds a fault that is planted. Argument: viewloomd. PYTHONPATH has
-the Python client."""
+"""Every detector of the overloads finds a fault that is planted. Argument: viewloomd.
+
+PYTHONPATH has the Python client."""
 
 import os
 import signal
