@@ -40,9 +40,8 @@ def wait_until_warm(meter):
 class Scene:
     """A server with a budget and identities, and the healthy pair."""
 
-    def __init__(self, program, its_form, client_count=8, is_warm=False):
+    def __init__(self, program, its_form, client_count=8):
         self.form = its_form
-        self._is_warm = is_warm  # as far as is needed
         self.identities = Identities(program)
         self.tokens = [self.identities.add(f"client-{number}") for number in range(client_count)]
         self.pair_token = self.identities.add("healthy")
@@ -55,9 +54,9 @@ class Scene:
         self.address = self.server.address
         self.meter = Meter(self.server.process.pid)
         self.peak_mib = 0.0
-        if self.form.is_long and not self._is_warm:
+        if self.form.is_long:
             wait_until_warm(self.meter)
-        elif not self._is_warm:
+        elif self.form.is_warm:
             self.use_every_kind()
         self.pair = HealthyPair(self.address, self.pair_token)
         return self

@@ -17,12 +17,14 @@ from clients import Session
 from viewloom.v1 import display_service_pb2 as display_service
 from viewloom.v1.display_service_pb2_grpc import DisplayServiceStub
 
-STREAM_COUNTS = (8, 10, 12, 14)
-SHORT_COUNTS = (4, 14)
+STREAM_COUNTS = (8, 10, 12, 14, 28, 56)
+SHORT_COUNTS = (8, 56)
 RATE_HZ = 10
 DISPLAY = loads.quilt(512)
-# Each is refused, the first two because of what is asked, the last because of what there is.
-REFUSED = ({"preset": "there-is-none"}, loads.quilt(16384, 51), loads.quilt(16384, 50))
+# Each is refused: because of what is asked, and the last because there are enough displays.
+REFUSED = ({"preset": "there-is-none"}, loads.quilt(512, 51), loads.quilt(500))
+SETTINGS = ("--limits.displays_max", str(STREAM_COUNTS[-1]), "--limits.streams_max",
+            str(STREAM_COUNTS[-1]))
 REFUSAL_COUNT = 20
 
 
@@ -94,7 +96,7 @@ def refusals_s(channel):
             display_service.StreamAtlasesRequest())
         begun_s = time.monotonic()
         try:
-            next(stub.StreamAtlases(iter([request]), timeout=30))
+            next(stub.StreamAtlases(iter([request]), timeout=5))
         except grpc.RpcError as error:
             if error.code() != grpc.StatusCode.DEADLINE_EXCEEDED:
                 times_s.append(time.monotonic() - begun_s)
@@ -108,7 +110,7 @@ def load_row(server, meter, count, seconds):
         for number in range(count):
             session = Session(server.address, "", f"load{number}")
             sessions.append(session)
-            session.publish(loads.scene(), RATE_HZ)
+            session.publish(loads.scene(layer_count=2), RATE_HZ)
             session.watch(DISPLAY)
         time.sleep(0.2 * seconds + 0.5)  # until all have begun
         meter.start()
@@ -138,7 +140,7 @@ def run(program, its_form):
     run_count, seconds = (5, 8.0) if its_form.is_long else (1, 2.0)
     measured = {count: [] for count in counts}
     refused_s = []
-    with Server(program) as server:
+    with Server(program, settings=SETTINGS) as server:
         meter = Meter(server.process.pid)
         with server.address.channel() as channel:
             rest_s = refusals_s(channel)

@@ -171,8 +171,8 @@ class PlantedProcesses(unittest.TestCase):
         self.assertEqual(len(viewer.torn), 2)
 
     def test_a_server_that_starves_the_pair_is_found(self):
-        its_form = form.Form(False, FULL, Budget(2.0, 1), Budget(2.0, 1), 0)
-        with beside.Scene(PROGRAM, its_form, is_warm=True) as a_scene:
+        its_form = form.Form(False, False, FULL, Budget(2.0, 1), Budget(2.0, 1), 0)
+        with beside.Scene(PROGRAM, its_form) as a_scene:
             starving = Starving(a_scene.server.process)
             row = a_scene.row("starving", [starving.load], its_form.client)
         found = " ".join(verdicts.judged_beside(row, FULL, FULL.gap_s).found)
