@@ -20,6 +20,7 @@ FUZZ_STEP_S, FUZZ_STEPS = 60, 150
 SOAKS = {"walk": ([], 200, 40), "sweep": (["sweep"], 2000, 20), "cube": (["cube"], 100, 20),
          "sources": (["sources"], 100, 20), "beside": (["beside"], 100, 20)}
 FIRST_SEED = 100_000
+TERMINATIONS, TERMINATIONS_A_STEP = 100, 10
 
 
 def build(preset, *targets):
@@ -80,6 +81,21 @@ def attack():
                 build("release", "viewloomd", "viewloom_python"))
 
 
+def overload():
+    """Each figure is a step; SIGTERM at random moments takes some more."""
+    words = ["env", "PYTHONPATH=build/release/client/python", sys.executable,
+             "tests/overload/overload.py", "build/release/server/viewloomd"]
+    return Part("overload", "overloads beside a healthy pair, and SIGTERM at 100 random moments, at "
+                "their full length", "figures",
+                lambda: [*(Step(figure, [*words, figure])
+                           for figure in ("beside", "slow_viewers", "overcommit")),
+                         *(Step(f"terminations from {first}",
+                                [*words, "terminations", "--first", str(first), "--count",
+                                 str(TERMINATIONS_A_STEP)])
+                           for first in range(0, TERMINATIONS, TERMINATIONS_A_STEP))],
+                build("release", "viewloomd", "viewloom_python"))
+
+
 def compare():
     """Builds the commit VIEWLOOM_COMPARE_WITH beside this one."""
     before = os.path.abspath("build/before")
@@ -116,6 +132,7 @@ PARTS = [
          lambda: [Step("clang-tidy", ["cmake", "--build", "build/lint", "--target", "clang_tidy"])],
          build("lint", "generated_headers")),
     attack(),
+    overload(),
     compare(),
     Part("bare-system", "packages, build and first picture in a bare Debian 12 (as root)", "runs",
          lambda: [Step("debootstrap to picture", ["tests/full/bare_system.sh"])]),

@@ -102,12 +102,17 @@ class Scene:
             cpu_s.append(time.process_time() - begun_s)
 
         act.__name__ = name
+        before = self.metrics()
         result = measure(act, self.server, self.pair, self.meter, self.address, its_budget)
+        predicted_s = measured_s = 0.0
         if self.server.is_alive():
             self.note_peak()
+            predicted_s, measured_s = (pieces.quantile(0.99)
+                                       for pieces in pieces_between(before, self.metrics()))
         return verdicts.BesideRow(
             name, result.pictures, result.pictures_due, result.longest_gap_s, result.rest_gap_s,
             cpu_s[0], result.cpu_s, sum(one.atlases() for one in sessions),
+            predicted_s, measured_s,
             sorted({text for one in sessions for text in one.refusals()}), result.found)
 
 
@@ -143,12 +148,16 @@ def beside_eight(scene, its_loads):
     return row, verdicts.ShareRow(demand, seen * picture_s / total_s)
 
 
+def pieces_between(before, after, **labels):
+    """Histograms of times as predicted, and as measured."""
+    return [metrics.Histogram.between(before, after, name, **labels)
+            for name in ("viewloom_predicted_piece_seconds", "viewloom_piece_seconds")]
+
+
 def piece_rows(before, after):
     """Each kind of work that there was enough of, and all together."""
     for labels in [{"work": work} for work in WORKS] + [{}]:
-        predicted, measured = (metrics.Histogram.between(before, after, name, **labels)
-                               for name in ("viewloom_predicted_piece_seconds",
-                                            "viewloom_piece_seconds"))
+        predicted, measured = pieces_between(before, after, **labels)
         longest = max(after.value("viewloom_longest_piece_seconds", work=work)
                       for work in labels.values() or WORKS)
         if labels and measured.count() < verdicts.PIECES_NEEDED:

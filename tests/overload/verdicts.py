@@ -52,17 +52,21 @@ class BesideRow:
     client_cpu_s: float  # of the clients, not of the pair
     server_cpu_s: float  # beside what the pair takes
     atlases: int         # that the clients got
+    predicted_p99_s: float = 0.0  # of all pieces of engine work meanwhile
+    measured_p99_s: float = 0.0
     refusals: list = field(default_factory=list)
     found: list = field(default_factory=list)
 
     HEADER = ("| beside | pictures | longest gap, s | at rest | CPU of server, s | of clients, s "
-              "| their atlases | refused | verdict |\n|---|---|---|---|---|---|---|---|---|")
+              "| their atlases | p99 of pieces, predicted, ms | measured | refused | verdict |\n"
+              "|---|---|---|---|---|---|---|---|---|---|---|")
 
     def text(self):
         refused = "; ".join(one[:60] for one in self.refusals) or "-"
         return (f"| {self.name} | {self.pictures} of {self.pictures_due:.0f} | {self.gap_s:.2f} "
                 f"| {self.rest_gap_s:.2f} | {self.server_cpu_s:.1f} | {self.client_cpu_s:.1f} "
-                f"| {self.atlases} | {refused} | {verdict(self)} |")
+                f"| {self.atlases} | {self.predicted_p99_s * 1e3:.1f} "
+                f"| {self.measured_p99_s * 1e3:.1f} | {refused} | {verdict(self)} |")
 
 
 def verdict(row):
