@@ -85,8 +85,8 @@ def overload():
     """Each figure is a step; SIGTERM at random moments takes some more."""
     words = ["env", "PYTHONPATH=build/release/client/python", sys.executable,
              "tests/overload/overload.py", "build/release/server/viewloomd"]
-    return Part("overload", "overloads beside a healthy pair, and SIGTERM at 100 random moments, at "
-                "their full length", "figures",
+    return Part("overload", "overloads beside a healthy pair, and SIGTERM at 100 random moments; on "
+                "a quiet machine", "figures",
                 lambda: [*(Step(figure, [*words, figure])
                            for figure in ("beside", "slow_viewers", "overcommit")),
                          *(Step(f"terminations from {first}",
