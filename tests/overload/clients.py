@@ -26,8 +26,8 @@ POSE_COUNT = 256
 BYTES_UNLIMITED = (("grpc.max_receive_message_length", -1), ("grpc.max_send_message_length", -1))
 
 
-def source(width_px, height_px, layer_count=1, shade=0):
-    """A square before a wall. Another shade is another picture."""
+def source(width_px, height_px, layer_count=1, shade=0, **more):
+    """A square before a wall. Another shade is another picture. more: fields of viewloom.Source."""
     y, x = np.mgrid[0:height_px, 0:width_px]
     is_square = (abs(x * 2 - width_px) * 3 < width_px) & (abs(y * 2 - height_px) * 2 < height_px)
     color = np.empty((height_px, width_px, 3), np.uint8)
@@ -35,7 +35,7 @@ def source(width_px, height_px, layer_count=1, shade=0):
     colors = [color] + [color // 2] * (layer_count - 1)
     front_m = np.where(is_square, 2.0, 4.0).astype(np.float32)
     depths_m = [front_m + layer for layer in range(layer_count)]
-    return viewloom.Source(colors, depths_m, fov_y_rad=0.9, pose=np.eye(4))
+    return viewloom.Source(colors, depths_m, fov_y_rad=0.9, pose=np.eye(4), **more)
 
 
 class Frames:
@@ -69,6 +69,13 @@ class Frames:
 
 def scene(width_px=320, height_px=180, layer_count=1):
     return Frames([source(width_px, height_px, layer_count, shade) for shade in (0, 90)])
+
+
+def mirrors(width_px=320, height_px=180):
+    """All that is seen mirrors, and is rough."""
+    surface = np.full((height_px, width_px), 0.5, np.float32)
+    return Frames([source(width_px, height_px, shade=shade, specular=surface, roughness=surface)
+                   for shade in (0, 90)])
 
 
 class Stream:

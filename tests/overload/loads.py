@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image
 
 import viewloom
-from clients import Frames, scene
+from clients import Frames, mirrors, scene
 from viewloom.v1 import frame_pb2
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "atlases"))
@@ -57,10 +57,10 @@ def first_use(kind):
     return load
 
 
-def watching(display, name):
+def watching(display, name, frames=scene):
     """One display of a stream of its own."""
     def load(session):
-        session.publish(scene())
+        session.publish(frames())
         session.watch(display)
     load.__name__ = name
     return load
@@ -70,7 +70,7 @@ large_quilt = watching(LARGE, "large_quilt")
 large_quilt_in_world = watching(LARGE_IN_WORLD, "large_quilt_in_world")
 lens_at_maximum = watching(LENS_MAX, "lens_at_maximum")
 filter_at_maximum = watching(FILTER_MAX, "filter_at_maximum")
-reflections_at_maximum = watching(REFLECTIONS_MAX, "reflections_at_maximum")
+reflections_at_maximum = watching(REFLECTIONS_MAX, "reflections_at_maximum", mirrors)
 
 
 def lens_of_the_healthy_stream(session):
