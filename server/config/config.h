@@ -11,6 +11,7 @@ namespace viewloom {
 struct GrpcConfig {
   std::string address = "127.0.0.1:50051";
   uint32_t keepalive_s = 10;
+  uint32_t unread_s = 60;  // in which a client takes at least one message
   uint32_t connections_max = 1024;
 };
 

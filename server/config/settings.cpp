@@ -37,6 +37,9 @@ std::vector<Setting> addressSettings(bool& open, GrpcConfig& grpc, HttpConfig& h
        "Silence after which a connection is tested; it is closed if no answer comes in half that "
        "time",
        CountSetting{&grpc.keepalive_s, 1, 3600}},
+      {"grpc.unread_s", "s",
+       "Time after which a call is cut whose client has not read a message (up to 1 MiB)",
+       CountSetting{&grpc.unread_s, 1, 3600}},
       {"grpc.connections_max", "",
        "Most gRPC connections at once; fewer if the system allows fewer open files",
        CountSetting{&grpc.connections_max, 1, 65536}},

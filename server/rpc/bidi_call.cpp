@@ -3,10 +3,17 @@
 
 #include <utility>
 
+#include <grpcpp/server_context.h>
+
 #include "admission/out_of_memory.h"
 #include "rpc/status_to_grpc.h"
 
 namespace viewloom {
+
+void BidiCall::setContext(const grpc::CallbackServerContext& context) {
+  std::lock_guard lock(context_mutex_);
+  context_ = &context;
+}
 
 void BidiCall::open() {
   self_ = shared_from_this();
@@ -27,6 +34,15 @@ void BidiCall::end(const absl::Status& status) {
   if (!handling) dropReads();
   std::lock_guard lock(mutex_);
   advance();
+}
+
+void BidiCall::cutIfUnread(uint32_t ticks_max) {
+  {
+    std::lock_guard lock(mutex_);
+    if (!writing_ || !unread_.reaches(ticks_max)) return;
+  }
+  std::lock_guard lock(context_mutex_);
+  if (context_ != nullptr) context_->TryCancel();
 }
 
 void BidiCall::OnReadDone(bool ok) {
@@ -78,6 +94,10 @@ void BidiCall::OnCancel() {
 }
 
 void BidiCall::OnDone() {
+  {
+    std::lock_guard lock(context_mutex_);
+    context_ = nullptr;
+  }
   if (releases_when_done_) {
     release();
     dropReads();
@@ -103,6 +123,7 @@ void BidiCall::advance() {
     if (std::optional<grpc::ByteBuffer> message = nextMessage()) {
       outgoing_ = *std::move(message);
       writing_ = true;
+      unread_.restart();
       grpc::WriteOptions options;
       if (moreFollows()) options.set_buffer_hint();
       StartWrite(&outgoing_, options);

@@ -10,6 +10,7 @@
 #include <grpcpp/support/server_callback.h>
 
 #include "base/status.h"
+#include "rpc/liveness.h"
 
 namespace viewloom {
 
@@ -24,10 +25,16 @@ inline constexpr const char* kDrainMessage =
 class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>,
                  public std::enable_shared_from_this<BidiCall> {
  public:
+  // The library's side of the call, which lives until OnDone. To be called before open().
+  void setContext(const grpc::CallbackServerContext& context);
   // Starts to read; call once, on a call that a shared_ptr owns.
   void open();
   // Ends the call once takeMessage has nothing more to write; the first status wins.
   void end(const absl::Status& status);
+  // To be called every kTick: cancels the call once its client has not taken a message for so many
+  // ticks. Otherwise a client that reads nothing would keep its place, and the end would wait for
+  // it.
+  void cutIfUnread(uint32_t ticks_max);
 
   void OnReadDone(bool ok) final;
   void OnWriteDone(bool ok) final;
@@ -75,10 +82,14 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
   bool handling_ = false;  // a message; the end waits for it
   bool half_closed_ = false;
   bool writing_ = false;
+  TicksSince unread_;  // since the message that is being written
   bool cancelled_ = false;
   bool finished_ = false;
   bool releases_when_done_ = false;  // it ended with the lock held, without release()
   std::optional<grpc::Status> end_status_;
+
+  std::mutex context_mutex_;  // guards context_
+  const grpc::CallbackServerContext* context_ = nullptr;
 };
 
 }  // namespace viewloom

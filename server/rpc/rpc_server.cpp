@@ -70,6 +70,7 @@ void setLimits(grpc::ServerBuilder& builder, const RpcServerOptions& options) {
 RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
                      const ServerDescription& description)
     : drain_time_(options.drain_time),
+      unread_ticks_max_(uint32_t(options.unread / kTick)),
       metrics_(parts.metrics),
       listener_({.address = options.address,
                  .connection_count_max = options.connection_count_max,
@@ -141,8 +142,8 @@ absl::Status RpcServer::health() const {
 }
 
 void RpcServer::tick() {
-  ingest_.tick();
-  display_.tick();
+  ingest_.tick(unread_ticks_max_);
+  display_.tick(unread_ticks_max_);
   if (tick_count_++ % kProbeTicks != 0 || is_draining_) return;
   probe_->ask();
   metrics_.grpc_connections.set(static_cast<double>(listener_.connectionCount()));

@@ -45,6 +45,9 @@ struct RpcServerOptions {
   // How long a connection may be silent before it is pinged. A peer that does not answer within
   // half as long is gone, and so is its hold on a stream's name.
   std::chrono::seconds keepalive{10};
+  // How long a client may take for one message, at most 1 MiB and what the library gathers with
+  // it, before its call is cut.
+  std::chrono::seconds unread{60};
   // Certificate and key of new connections, asked from any thread; none = no encryption.
   std::function<TlsMaterialPtr()> tls;
 };
@@ -77,6 +80,7 @@ class RpcServer {
   void tick();
 
   const std::chrono::milliseconds drain_time_;
+  const uint32_t unread_ticks_max_;
   const Metrics& metrics_;
   RpcListener listener_;
   // gRPC asks it for the certificate of each new connection, and does not keep it.

@@ -30,6 +30,7 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::Publ
   absl::StatusOr<Caller> caller = admitLiveCall(access_, *context, kPublishFrames);
   if (!caller.ok()) return new RefusedCall(caller.status());
   const auto call = std::make_shared<PublishCall>(parts_, *std::move(caller), hostOf(*context));
+  call->setContext(*context);
   calls_.open(call);
   return call.get();
 }
@@ -40,8 +41,11 @@ void IngestService::demandChanged(const std::string& stream) {
   });
 }
 
-void IngestService::tick() {
-  calls_.forEach([](PublishCall& call) { call.tick(); });
+void IngestService::tick(uint32_t unread_ticks_max) {
+  calls_.forEach([unread_ticks_max](PublishCall& call) {
+    call.tick();
+    call.cutIfUnread(unread_ticks_max);
+  });
 }
 
 void IngestService::drain() {
@@ -55,12 +59,16 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* DisplayService::Str
   absl::StatusOr<Caller> caller = admitLiveCall(access_, *context, kStreamAtlases);
   if (!caller.ok()) return new RefusedCall(caller.status());
   const auto call = std::make_shared<WatchCall>(parts_, *std::move(caller), hostOf(*context));
+  call->setContext(*context);
   calls_.open(call);
   return call.get();
 }
 
-void DisplayService::tick() {
-  calls_.forEach([](WatchCall& call) { call.tick(); });
+void DisplayService::tick(uint32_t unread_ticks_max) {
+  calls_.forEach([unread_ticks_max](WatchCall& call) {
+    call.tick();
+    call.cutIfUnread(unread_ticks_max);
+  });
 }
 
 void DisplayService::drain() {

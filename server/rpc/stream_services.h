@@ -2,6 +2,7 @@
 // The services whose clients stay: one call per publisher and per viewer, that lives until it ends.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "rpc/live_calls.h"
@@ -20,8 +21,8 @@ class IngestService final
 
   // The set of displays of a stream changed: its publisher hears what they want.
   void demandChanged(const std::string& stream);
-  // To be called every kTick.
-  void tick();
+  // To be called every kTick. Calls whose clients take nothing for so many ticks are cut.
+  void tick(uint32_t unread_ticks_max);
   // Ends all calls, and those to come, with UNAVAILABLE.
   void drain();
 
@@ -41,8 +42,8 @@ class DisplayService final
   DisplayService(const DisplayParts& parts, AccessControl& access)
       : parts_(parts), access_(access) {}
 
-  // To be called every kTick.
-  void tick();
+  // To be called every kTick; cuts calls like IngestService::tick.
+  void tick(uint32_t unread_ticks_max);
   // Ends calls to come, and those that watch nothing yet, with UNAVAILABLE. The others end with
   // Broadcaster::drain, when the last atlas was offered to them.
   void drain();
