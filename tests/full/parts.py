@@ -85,7 +85,7 @@ def overload():
     """Each figure is a step; SIGTERM at random moments takes some more."""
     words = ["env", "PYTHONPATH=build/release/client/python", sys.executable,
              "tests/overload/overload.py", "build/release/server/viewloomd"]
-    return Part("overload", "overloads beside a healthy pair, and SIGTERM at 100 random moments; on "
+    return Part("overload", "overloads beside a healthy pair; 100 random moments of SIGTERM; on "
                 "a quiet machine", "figures",
                 lambda: [*(Step(figure, [*words, figure])
                            for figure in ("beside", "slow_viewers", "overcommit")),

@@ -8,6 +8,7 @@ exit code is 1 if a figure is not met.
 
 import argparse
 import dataclasses
+import signal
 import sys
 import time
 
@@ -34,6 +35,7 @@ def main():
     its_form = form.SUITE if words.suite else form.SHORT if words.short else form.LONG
     its_form = dataclasses.replace(its_form, first=words.first,
                                    count=words.count or its_form.count)
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # also ends the server
     rows = []
     for name in words.figures or FIGURES:
         begun_s = time.monotonic()

@@ -14,9 +14,10 @@ from stalled_viewers import Crowd, Faker, Silent, Slow, Waiting
 RATE_HZ = 20
 COUNTS = {Silent: 67, Faker: 67, Waiting: 66, Slow: 8}
 NEVER_READING = (Silent, Faker, Waiting)
-KEEPALIVE_S = 10
-# Pings come after that silence, and wait half as long for an answer; a moment to notice it.
-CUT_AFTER_S = 1.5 * KEEPALIVE_S + 5
+KEEPALIVE_S, UNREAD_S, SHORT_UNREAD_S = 10, 10, 3
+# Pings come after that silence, and wait half as long for an answer; a moment to fill windows, and
+# to notice.
+CUT_AFTER_S = max(1.5 * KEEPALIVE_S, UNREAD_S) + 5
 
 
 @dataclass
@@ -116,7 +117,9 @@ def run(program, its_form):
         print(f"{header}\n{row.text()}", flush=True)
 
     run_count, seconds = (5, 8.0) if its_form.is_long else (1, 1.5)
-    settings = ("--grpc.keepalive_s", str(KEEPALIVE_S))
+    kinds, unread_s = ((tuple(COUNTS), UNREAD_S) if its_form.is_long else
+                       ((Waiting,), SHORT_UNREAD_S))
+    settings = ("--grpc.keepalive_s", str(KEEPALIVE_S), "--grpc.unread_s", str(unread_s))
     with Server(program, settings=settings) as server:
         meter = Meter(server.process.pid)
         pair = HealthyPair(server.address, options=("--rate", str(RATE_HZ)))
@@ -126,7 +129,7 @@ def run(program, its_form):
             tell(AgeRow.HEADER, judged_age(row, its_form.limits))
             print(f"server: {meter.used_cpu_s():.1f} s of CPU time, "
                   f"{meter.peak_growth_mib():.0f} MiB more at its peak")
-            for kind in COUNTS if its_form.is_long else ():
+            for kind in kinds:
                 time.sleep(1)  # those before have gone
                 row = cut_row(server.address, kind, before_count=1)
                 tell(CutRow.HEADER, judged_cut(row, kind in NEVER_READING))
