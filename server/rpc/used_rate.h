@@ -8,7 +8,8 @@
 namespace viewloom {
 
 // While all frames are used, there is no limit. When some are replaced by newer ones, the limit is
-// a little more than the frames that were used. It rises again while none is replaced.
+// a little more than the frames that were used, but at least half of those that came. It rises
+// again while none is replaced, faster and faster.
 // Thread-safety: none.
 class UsedRate {
  public:
@@ -21,17 +22,24 @@ class UsedRate {
   double limitHz() const { return limit_hz_; }
 
  private:
+  // Factor of the first rise, after a window without replaced frames; squared for each that
+  // follows. So a publisher that lost frames in a short crowd is soon back, and one that sends too
+  // much is not tempted.
+  static constexpr double kRise = 1.25;
+
   struct Outcome {
     int64_t time_ns = 0;
     bool is_used = false;
   };
 
-  bool lower(double used_hz, int64_t now_ns);
+  bool lower(double rate_hz, int64_t now_ns);
   bool raise(double received_hz, int64_t now_ns);
+  void change(double limit_hz, int64_t now_ns);
 
-  std::deque<Outcome> outcomes_;  // of the last while
+  std::deque<Outcome> outcomes_;  // of the last while, since the limit was changed
   double limit_hz_ = 0;
   int64_t changed_ns_ = 0;  // the limit
+  double rise_ = kRise;     // factor of the next rise
 };
 
 }  // namespace viewloom

@@ -55,6 +55,17 @@ TEST(UsedRate, isALittleMoreThanWhatIsUsed) {
   EXPECT_LE(simulation.changeCount(), 30);
 }
 
+// 10 Hz, of which a crowd leaves 1 Hz for a second.
+TEST(UsedRate, isSoonGoneAfterAShortCrowd) {
+  Simulation simulation;
+  simulation.run(10, 1000, 10);
+  simulation.run(10, 1, 1);
+  simulation.sentCount();
+  simulation.run(10, 1000, 10);
+  EXPECT_GE(simulation.sentCount(), 80);
+  EXPECT_EQ(simulation.rate().limitHz(), 0);
+}
+
 TEST(UsedRate, goesWhenThereIsTimeAgain) {
   Simulation simulation;
   simulation.run(30, 5, 20);
