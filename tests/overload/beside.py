@@ -179,15 +179,15 @@ def run(program, its_form):
         if its_form.is_long:
             for load in loads.FIRST_USES:
                 row = scene.row(load.__name__, [load], its_form.client)
-                tell(verdicts.judged_beside(row, limits, limits.gap_s))
+                tell(verdicts.judged_beside(row, limits))
             scene.use_every_kind()
         time.sleep(its_form.settle_s)
         rest_mib, before = scene.memory_mib("VmRSS"), scene.metrics()
         for load in loads.SINGLE if its_form.is_long else loads.SINGLE_SHORT:
             row = scene.row(load.__name__, [load], its_form.client)
-            tell(verdicts.judged_beside(row, limits, limits.gap_s))
+            tell(verdicts.judged_beside(row, limits))
         row, share = beside_eight(scene, loads.EIGHT if its_form.is_long else loads.EIGHT_SHORT)
-        tell(verdicts.judged_beside(row, limits, limits.gap_beside_many_s))
+        tell(verdicts.judged_beside_many(row, limits))
         after = scene.metrics()
         print(f"\n{verdicts.ShareRow.HEADER}")
         tell(verdicts.judged_share(share, limits))

@@ -72,11 +72,15 @@ class PlantedVerdicts(unittest.TestCase):
     def test_the_healthy_pair_is_judged(self):
         def judged(pictures, gap_s):
             row = verdicts.BesideRow("planted", pictures, 40.0, gap_s, 0.12, 1.0, 1.0, 3)
-            return self.found(verdicts.judged_beside(row, FULL, FULL.gap_s))
+            return self.found(verdicts.judged_beside(row, FULL))
 
         self.assertEqual(judged(38, 0.25), "")
         self.assertIn("pictures: 30 of 40", judged(30, 0.25))
         self.assertIn("gap: 0.45 s", judged(38, 0.45))
+        row = verdicts.BesideRow("planted", 30, 40.0, 1.2, 0.12, 1.0, 1.0, 3)
+        found = self.found(verdicts.judged_beside_many(row, FULL))
+        self.assertIn("pictures: 30 of 40", found)
+        self.assertIn("gap: 1.20 s, at most 1.0", found)
 
     def test_a_wrong_share_is_found(self):
         def judged(demand, share):
@@ -175,7 +179,7 @@ class PlantedProcesses(unittest.TestCase):
         with beside.Scene(PROGRAM, its_form) as a_scene:
             starving = Starving(a_scene.server.process)
             row = a_scene.row("starving", [starving.load], its_form.client)
-        found = " ".join(verdicts.judged_beside(row, FULL, FULL.gap_s).found)
+        found = " ".join(verdicts.judged_beside(row, FULL).found)
         self.assertIn("gap", found)
         self.assertIn("pictures", found)
 
