@@ -70,9 +70,10 @@ class Pair:
 
     def publish(self):
         with self.server.publish(self.words.stream) as publisher:
-            number, next_s = 0, time.monotonic()
+            number, next_s, step_s = 0, time.monotonic(), 1 / self.words.rate
             while not self.stopping.wait(max(0, next_s - time.monotonic())):
-                next_s = max(next_s + 1 / self.words.rate, time.monotonic() - 1)
+                # Frames that could not be sent in time are not made up for.
+                next_s = max(next_s + step_s, time.monotonic() - step_s)
                 number += 1
                 self.count.due += 1
                 publisher.send(source(number))
