@@ -112,8 +112,10 @@ class Planted(unittest.TestCase):
                 time.sleep(STOP_S)
                 os.kill(server.process.pid, signal.SIGCONT)
 
+            # What is due is counted at rest: of a pair that is well, and not for a moment only.
+            self.assertTrue(measure.is_well(pair))
             a_row = measure.measure(stop, server, pair, Meter(server.process.pid), server.address,
-                                    budget.SHORT)
+                                    budget.Budget(seconds=2.0, scale=1))
         self.assertIn("gap", self.found(a_row))
         self.assertIn("pictures", self.found(a_row))
 
