@@ -112,7 +112,7 @@ class Planted(unittest.TestCase):
                 time.sleep(STOP_S)
                 os.kill(server.process.pid, signal.SIGCONT)
 
-            # What is due is counted at rest: of a pair that is well, and not for a moment only.
+            # Rest tells how many pictures are due: of a pair that is well, and for long enough.
             self.assertTrue(measure.is_well(pair))
             a_row = measure.measure(stop, server, pair, Meter(server.process.pid), server.address,
                                     budget.Budget(seconds=2.0, scale=1))
