@@ -10,6 +10,7 @@
 #include "sweep/light_sums.h"
 #include "sweep/surface_row_builder.h"
 #include "sweep/sweep_plan.h"
+#include "sweep/swept_atlas.h"
 #include "sweep/ycbcr_rows.h"
 
 namespace viewloom {
@@ -20,23 +21,6 @@ struct SweepPicture {
   const SweepPlan* plan = nullptr;
   RowSource source;
   float inv_z_max = 0;  // of the source, 1/m
-};
-
-// The planes of an atlas in host memory, packed, top row first. Those not wanted are empty; colour
-// has one of two forms.
-struct SweptAtlas {
-  std::vector<uint32_t> color;          // uint32_t[height][width]: R, G, B, 255 in memory order
-  std::vector<uint8_t> ycbcr;           // as YcbcrLayout
-  std::vector<float> depth;             // float[height][width], 1/Z of the view, 1/m
-  std::vector<uint8_t> mask;            // uint8_t[height][width], RayClass
-  std::vector<float> linear;            // float[height][width][4], sRGB-encoded
-  std::vector<abi::RayRecord> records;  // by px; no visits are counted
-
-  // Room for the planes, black where no view stands.
-  void begin(const TraceJob& job, const TraceOutputs& outputs);
-
-  // Bytes that it has room for after begin() of such an atlas.
-  uint64_t capacityBytesFor(const TraceJob& job, const TraceOutputs& outputs) const;
 };
 
 // Keeps what a row needs on its way. Thread-safety: none; one a thread. Several may sweep rows of

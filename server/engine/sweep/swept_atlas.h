@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Memory that atlases are swept into.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "display/color_form.h"
+#include "picture/trace_job.h"
+
+namespace viewloom {
+
+// A px that no view shows, as the atlas has it.
+inline constexpr uint32_t kOpaqueBlack = 0xff000000;
+
+// The planes of an atlas in host memory, packed, top row first. Those not wanted are empty; colour
+// has one of two forms.
+struct SweptAtlas {
+  std::vector<uint32_t> color;          // uint32_t[height][width]: R, G, B, 255 in memory order
+  std::vector<uint8_t> ycbcr;           // as YcbcrLayout
+  std::vector<float> depth;             // float[height][width], 1/Z of the view, 1/m
+  std::vector<uint8_t> mask;            // uint8_t[height][width], RayClass
+  std::vector<float> linear;            // float[height][width][4], sRGB-encoded
+  std::vector<abi::RayRecord> records;  // by px; no visits are counted
+
+  // Room for the planes, black where no view stands.
+  void begin(const TraceJob& job, const TraceOutputs& outputs);
+
+  // Bytes that it has room for after begin() of such an atlas.
+  uint64_t capacityBytesFor(const TraceJob& job, const TraceOutputs& outputs) const;
+};
+
+}  // namespace viewloom
