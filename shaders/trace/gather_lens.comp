@@ -15,10 +15,6 @@ layout(constant_id = kIdWanted) const uint kWanted = 0u;  // kWantLinear or noth
 layout(constant_id = kIdColorFormat) const uint kColorFormat = kColorRgba8;
 layout(constant_id = kIdColorIsScaled) const bool kColorIsScaled = false;
 layout(constant_id = kIdIsExact) const bool kIsExact = false;
-const bool kIsLayered = false;
-const bool kSeesThrough = false;
-const bool kMeetsBacks = false;
-const bool kRaysArePlain = false;
 layout(push_constant, scalar) uniform Push {
   GatherPush push;
 };
@@ -103,7 +99,7 @@ vec3 lightOf(Nearest met, Extent extent) {
     count = extras.color_stride;
   }
   const vec3 texel = loadTexel(push.color, met.layer, count, kColorFormat, index).rgb;
-  return linearFromSrgb(codesOfBlend(texel) / 255.0);
+  return linearFromSrgb(codesOfBlend(texel, kColorFormat) / 255.0);
 }
 
 // The light of rays, and how many they are.
@@ -114,11 +110,13 @@ struct LightSum {
 
 // The ray, walked: from as far along as nothing can be before.
 vec3 lightOfWalk(Scene scene, ViewParams view, Ray ray, float bound) {
-  const WalkStart start = startOf(scene, ray, bound);
-  Walk walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
+  const WalkStart start = startOf(scene, ray, bound, false);
+  Walk walk =
+      walkRay(scene, kSeesFirstSurfaces, ray, start, view.inv_z_tolerance, view.eye.z);
   const Light seen = opaqueLight(scene, ray, walk);
-  const vec3 blend = seen.is_known ? seen.color.rgb : blendOfBackground();
-  return linearFromSrgb(codesOfBlend(blend) / 255.0);
+  const vec3 blend =
+      seen.is_known ? seen.color.rgb : blendOfBackground(push.fill, kColorFormat);
+  return linearFromSrgb(codesOfBlend(blend, kColorFormat) / 255.0);
 }
 
 // In mode exact: what a ray sees that has met this, as light. It is this if nothing of the source
@@ -147,7 +145,8 @@ vec3 lightOfRay(Scene scene, ViewParams view, LensRay ray, Nearest met, vec3 lig
 vec3 lightOfNone(uint kinds, LightSum walked) {
   const uint both = kMetSeesBackground | kMetSeesAssumed;
   if ((kinds & both) != kMetSeesBackground) return walked.light / float(walked.count);
-  return linearFromSrgb(codesOfBlend(blendOfBackground()) / 255.0);
+  const vec3 background = blendOfBackground(push.fill, kColorFormat);
+  return linearFromSrgb(codesOfBlend(background, kColorFormat) / 255.0);
 }
 
 Scene sceneOf(GatherPush given) {
@@ -157,6 +156,7 @@ Scene sceneOf(GatherPush given) {
   scene.extent = makeExtent(ivec2(sizeOf(given.source_size_px)));
   scene.fills_border = (given.fill & kFillBorder) != 0u;
   addMeasured(scene, measured_head);
+  addColor(scene, given.color, kColorFormat, kColorIsScaled);
   return scene;
 }
 

@@ -14,9 +14,6 @@ layout(local_size_x = kTraceGroupSize) in;
 layout(push_constant, scalar) uniform Push {
   MergePathsPush push;
 };
-layout(set = 0, binding = kBindingAnswers, scalar) readonly buffer Answers {
-  RayAnswer answers[];
-};
 layout(set = 0, binding = kBindingPaths, scalar) buffer Paths {
   ReflectedPath paths[];
 };
@@ -47,15 +44,15 @@ float certaintyOf(RayAnswer answer, float mirror_inv_z) {
 }
 
 // Weight of a surface that sources agree on: that of the one that saw most of the way to it.
-float certaintyOfHit(RayAnswer hit, float mirror_inv_z) {
+float certaintyOfHit(Asked asked, RayAnswer hit, float mirror_inv_z) {
   float most_certain = 0.0;
   uint source = 0u;
   for (;;) {
-    const RayAnswer answer = loadAnswer(source);
+    const RayAnswer answer = loadAnswer(asked, source);
     const bool counts = isHit(answer) && areOne(answer, hit);
     most_certain = max(most_certain, counts ? certaintyOf(answer, mirror_inv_z) : 0.0);
     ++source;
-    if (source >= push.source_count) break;
+    if (source >= asked.source_count) break;
   }
   return most_certain;
 }
@@ -66,12 +63,12 @@ vec3 linearLight(vec4 codes) {
 
 // Light where a ray's own answer is not certain: from the most certain of the other cube maps, else
 // none.
-vec3 lightAround(uint main_source, float mirror_inv_z) {
+vec3 lightAround(Asked asked, uint main_source, float mirror_inv_z) {
   vec3 light = push.environment;
   float most_certain = 0.0;
   uint source = 0u;
   for (;;) {
-    const RayAnswer answer = loadAnswer(source);
+    const RayAnswer answer = loadAnswer(asked, source);
     const bool counts = isOf(push.cube_maps, source) && source != main_source &&
                         (isHit(answer) || endsBehind(answer));
     const float certainty = certaintyOf(answer, mirror_inv_z);
@@ -79,15 +76,15 @@ vec3 lightAround(uint main_source, float mirror_inv_z) {
     light = is_taken ? mix(push.environment, linearLight(lightOf(answer)), certainty) : light;
     most_certain = is_taken ? certainty : most_certain;
     ++source;
-    if (source >= push.source_count) break;
+    if (source >= asked.source_count) break;
   }
   return light;
 }
 
 // One ray: its light, and where it goes on.
-void follow(inout ReflectedPath path, inout uvec3 counts) {
-  const Merged merged = mergeAnswers(push.source_count);
-  const RayAnswer main_answer = loadAnswer(merged.main_source);
+void follow(Asked asked, inout ReflectedPath path, inout uvec3 counts) {
+  const Merged merged = mergeAnswers(asked);
+  const RayAnswer main_answer = loadAnswer(asked, merged.main_source);
   const bool is_hit = merged.ray_class == kClassHit || merged.ray_class == kClassHitAssumed;
   const bool is_back = is_hit && (main_answer.layer & kAnswerIsBack) != 0u;
   const bool ends_behind = !is_hit && endsBehind(main_answer);
@@ -97,11 +94,12 @@ void follow(inout ReflectedPath path, inout uvec3 counts) {
                       : is_back                                ? kReflectionBack
                       : merged.ray_class == kClassHit          ? kReflectionHit
                                                                : kReflectionAssumed;
-  const float certainty = is_hit        ? certaintyOfHit(main_answer, path.spot.z)
+  const float certainty = is_hit        ? certaintyOfHit(asked, main_answer, path.spot.z)
                           : ends_behind ? certaintyOf(main_answer, path.spot.z)
                                         : 0.0;
   const bool has_more = is_seen && merged.ray_class != kClassHit;
-  const vec3 around = has_more ? lightAround(merged.main_source, path.spot.z) : push.environment;
+  const vec3 around =
+      has_more ? lightAround(asked, merged.main_source, path.spot.z) : push.environment;
   const vec3 found = mix(around, linearLight(merged.light), certainty);
   path.light += path.share * found;
   countReflection(counts, ending, path.is_bent != 0u);
@@ -113,7 +111,7 @@ void follow(inout ReflectedPath path, inout uvec3 counts) {
   path.is_on = is_hit && !is_back && !is_last && isOf(push.mirrors, merged.main_source) ? 1u : 0u;
   path.share *= certainty;
   path.spot = vec3(main_answer.x_px, main_answer.y_px, main_answer.inv_z);
-  path.walk = walkOfSource(merged.main_source) + (main_answer.layer >> kAnswerFaceShift);
+  path.walk = walkOfSource(asked, merged.main_source) + (main_answer.layer >> kAnswerFaceShift);
 }
 
 void main() {
@@ -127,9 +125,10 @@ void main() {
   const bool mirrors = exists && paths[index].sample_count > 0u;
   if (exists && !mirrors && is_last) reflected_band[band_index] = kNothingReflected;
   if (mirrors) {
-    answer_index = index;
+    const Asked asked =
+        Asked(push.source_count, push.answers_stride, push.first_walks, index);
     ReflectedPath path = paths[index];
-    if (path.is_on != 0u) follow(path, counts);
+    if (path.is_on != 0u) follow(asked, path, counts);
     if (push.bounce + 1u == push.bounce_count && push.sample_index < path.sample_count) {
       path.light_sum += path.own_share * path.light;
       path.share_sum += path.own_share;

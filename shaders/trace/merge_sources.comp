@@ -16,9 +16,6 @@ layout(push_constant, scalar) uniform Push {
 layout(set = 0, binding = kBindingBand, scalar) writeonly buffer Band {
   uint band[];
 };
-layout(set = 0, binding = kBindingAnswers, scalar) readonly buffer Answers {
-  RayAnswer answers[];
-};
 layout(buffer_reference, scalar, buffer_reference_align = 4) writeonly buffer RecordsRef {
   RayRecord at[];
 };
@@ -34,7 +31,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 1) writeonly buffer Ui
 #include "lib/light/srgb.glsl"
 #include "lib/rays/tile_px.glsl"
 
-void store(uint index, Merged merged, uint shows) {
+void store(uint index, Asked asked, Merged merged, uint shows) {
   const bool shows_depth = (shows & kShowsDepth) != 0u;
   const bool is_known = shows_depth || merged.light.a > 0.5;
   const vec3 grey = vec3(float(depthCode(merged.view_inv_z, extras.depth_scale)));
@@ -47,7 +44,7 @@ void store(uint index, Merged merged, uint shows) {
     Vec4Ref(extras.linear).at[index] = vec4(clamp(srgb, 0.0, 1.0), 1.0);
   }
   if ((kWanted & kWantRecords) != 0u) {
-    const RayAnswer main_answer = loadAnswer(merged.main_source);
+    const RayAnswer main_answer = loadAnswer(asked, merged.main_source);
     RecordsRef(extras.records).at[index] =
         RayRecord(main_answer.x_px, main_answer.y_px, main_answer.inv_z, merged.ray_class,
                   main_answer.layer | merged.main_source << kRecordSourceShift, merged.visits);
@@ -59,12 +56,13 @@ void main() {
   const uint x_px = gl_GlobalInvocationID.x;
   const TilePx at = tilePxAt(x_px, row, push.tile_size_px, push.tile_grid, push.padding_top_px);
   uvec3 counts = uvec3(0u);
-  const Aim aim = aimOf(vec2(at.px) + 0.5);
+  const Aim aim = aimOf(vec2(at.px) + 0.5, kRays);
   if (at.exists && aim.is_used && views[at.tile].is_used != 0u) {
-    answer_index = gl_WorkGroupID.y * push.atlas_width_px + x_px;
-    const Merged merged = mergeAnswers(push.source_count);
+    const Asked asked = Asked(push.source_count, push.answers_stride, push.first_walks,
+                              gl_WorkGroupID.y * push.atlas_width_px + x_px);
+    const Merged merged = mergeAnswers(asked);
     const uint band_row = push.band_row + gl_WorkGroupID.y;
-    store(band_row * push.atlas_width_px + x_px, merged, views[at.tile].shows);
+    store(band_row * push.atlas_width_px + x_px, asked, merged, views[at.tile].shows);
     count(counts, merged.ray_class);
   }
   addCounts(counts, UintRef(extras.counters), gl_WorkGroupID.y * kCounterSets / gl_NumWorkGroups.y);

@@ -13,10 +13,6 @@ layout(constant_id = kIdColorFormat) const uint kColorFormat = kColorRgba8;
 layout(constant_id = kIdColorIsScaled) const bool kColorIsScaled = false;
 layout(constant_id = kIdRays) const uint kRays = kRaysOfPinholes;
 layout(constant_id = kIdThroughLens) const bool kThroughLens = false;
-const bool kRaysArePlain = false;
-// Rays begin behind the layers in front of their surface.
-const bool kSeesThrough = true;
-const bool kMeetsBacks = true;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
@@ -25,4 +21,8 @@ layout(push_constant, scalar) uniform Push {
 
 Found follow(Scene scene, Pinhole pinhole, Spot from, Reflected reflected) {
   return foundBy(scene, pinhole, from, reflected.ray, walkMirrored(scene, from, reflected));
+}
+
+void main() {
+  reflectPx(push, ReflectRules(kRays, kThroughLens, kColorFormat, kColorIsScaled));
 }

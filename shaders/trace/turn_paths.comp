@@ -11,8 +11,6 @@
 layout(local_size_x = kTraceGroupSize) in;
 layout(constant_id = kIdRays) const uint kRays = kRaysOfPinholes;
 layout(constant_id = kIdThroughLens) const bool kThroughLens = false;
-const bool kSeesThrough = true;
-const bool kMeetsBacks = true;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
@@ -36,7 +34,7 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Rec
 
 // Whether no reflected ray starts here.
 bool isBeside(TilePx at, RayRecord record, out Aim aim, out ViewParams view) {
-  aim = aimOf(vec2(at.px) + 0.5);
+  aim = aimOf(vec2(at.px) + 0.5, kRays);
   view = views[at.tile];
   const bool is_hit = record.ray_class == kClassHit || record.ray_class == kClassHitAssumed;
   return !at.exists || view.is_used == 0u || !is_hit || !aim.is_used || record.inv_z <= 0.0 ||
@@ -71,7 +69,7 @@ void begin(Scene scene, Pinhole pinhole, TilePx at, RayRecord record, inout Refl
   Aim aim;
   ViewParams view;
   if (isBeside(at, record, aim, view)) return;
-  view = viewOfPx(view, aim, at.px);
+  view = viewOfPx(view, aim, at.px, kRays, kThroughLens);
   const Spot spot = spotAt(scene, vec3(record.x_px, record.y_px, record.inv_z));
   const Mirror mirror = mirrorAt(scene, pinhole, settings.surfaces, normalAxes(), spot);
   if (all(lessThanEqual(mirror.light, vec3(0.0)))) return;
@@ -115,7 +113,7 @@ void main() {
   const uint row = push.first_row + gl_WorkGroupID.y;
   const TilePx at = tilePxAt(x, row, push.tile_size_px, push.tile_grid, push.padding_top_px);
   const uint index = gl_WorkGroupID.y * push.atlas_width_px + x;
-  const Scene scene = pushedScene(false);
+  const Scene scene = pushedScene(push, false);
   const Pinhole pinhole = Pinhole(extras.focal_px, extras.principal_px);
   if (push.bounce > 0u) {
     if (paths[index].is_on == 0u || paths[index].walk != settings.walk) return;

@@ -11,9 +11,6 @@ layout(local_size_x = kTraceGroupSize) in;
 layout(constant_id = kIdColorFormat) const uint kColorFormat = kColorRgba8;
 layout(constant_id = kIdColorIsScaled) const bool kColorIsScaled = false;
 layout(constant_id = kIdIsCubeFace) const bool kIsCubeFace = false;
-const bool kRaysArePlain = false;
-const bool kSeesThrough = true;
-const bool kMeetsBacks = true;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
@@ -113,7 +110,8 @@ RayAnswer answerTo(Scene scene, Pinhole pinhole, ReflectedPath path) {
   const WalkStart start = WalkStart(ray.t_begin, cell, beginning.behind_count);
   Walk walk = walkBeside(start);
   if (ray.t_begin < ray.t_end) {
-    walk = walkRay(scene, ray, start, reflected.inv_z_tolerance, reflected.eye_z);
+    walk = walkRay(scene, kMeetsReflections, ray, start, reflected.inv_z_tolerance,
+                   reflected.eye_z);
   }
   // A face knows no body that goes on in the next one.
   const uint body = kIsCubeFace ? kBodyUnknown : meetBody(scene, pinhole, ray, walk);
@@ -134,7 +132,7 @@ RayAnswer answerTo(Scene scene, Pinhole pinhole, ReflectedPath path) {
   const float widened = 1.0 + distance(path.start, path.eye) * places.hit;
   view.direction_dx *= widened;
   view.direction_dy *= widened;
-  const vec4 codes = vec4(codesOfBlend(light.color.rgb), light.is_known ? 1.0 : 0.0);
+  const vec4 codes = vec4(codesOfBlend(light.color.rgb, kColorFormat), light.is_known ? 1.0 : 0.0);
   RayAnswer answer =
       answerOf(scene, pinhole, view, ray, reflected.along, walk, places, codes);
   if (kIsCubeFace) markFaceAnswer(answer, stretch, walk, vec2(scene.extent.size_px));
@@ -147,6 +145,7 @@ void main() {
   if (x >= push.atlas_width_px) return;
   const uint index = gl_WorkGroupID.y * push.atlas_width_px + x;
   if (paths[index].is_on == 0u) return;
-  answers[index] = answerTo(pushedScene(false), Pinhole(extras.focal_px, extras.principal_px),
-                            paths[index]);
+  Scene scene = pushedScene(push, false);
+  addColor(scene, push.color, kColorFormat, kColorIsScaled);
+  answers[index] = answerTo(scene, Pinhole(extras.focal_px, extras.principal_px), paths[index]);
 }

@@ -13,99 +13,21 @@
 
 layout(local_size_x = kTraceGroupSize) in;
 
-#include "lib/walk/walk_views.glsl"
+#include "lib/lens/hidden_px.glsl"
+#include "lib/lens/traced_px.glsl"
+#include "lib/light/edge_blend.glsl"
+#include "lib/light/ray_light.glsl"
+#include "lib/light/store_px.glsl"
 #include "lib/rays/extras.glsl"
 #include "lib/rays/views.glsl"
 #include "lib/walk/class_counts.glsl"
-#include "lib/light/color.glsl"
-#include "lib/light/edge_blend.glsl"
 #include "lib/walk/face_ray.glsl"
-#include "lib/walk/px_bits.glsl"
 #include "lib/walk/pushed_scene.glsl"
-#include "lib/lens/px_view.glsl"
+#include "lib/walk/px_bits.glsl"
 #include "lib/walk/ray_answer.glsl"
-#include "lib/light/ray_light.glsl"
-#include "lib/walk/walk_tasks.glsl"
-#include "lib/light/store_px.glsl"
 #include "lib/walk/unfinished_runs.glsl"
-#include "lib/walk/walk.glsl"
-
-Seen seenOf(Scene scene, Ray ray, Walk walk, Light light, vec3 background) {
-  const vec2 px_per_inv_z = ray.extent.xy / (ray.extent.z == 0.0 ? 1.0 : ray.extent.z);
-  Seen seen;
-  seen.color = light.is_known ? light.color.rgb : background;
-  seen.inv_z = walk.is_hit ? ray.start.z + walk.t * ray.extent.z : kNoSurface;
-  seen.cell = walk.cell;
-  seen.layer = walk.layer;
-  seen.at_sky = ray.start.xy - ray.start.z * px_per_inv_z;
-  seen.px_per_inv_z = px_per_inv_z;
-  seen.clean = cleanShare(scene, ray).x;
-  return seen;
-}
-
-// A px of a run, traced.
-struct Traced {
-  Ray ray;
-  Walk walk;
-  ViewParams view;  // from the eye of this px
-  vec3 direction;
-  Seen seen;
-  bool is_known;  // its colour; else the background
-  bool is_used;   // else it is no px of the display
-  FaceStretch stretch;  // of a face of a cube map
-};
-
-// The ray of a place of a tile, from the view's eye. `bound`: of where it may start.
-Traced traceRay(Scene scene, ViewParams view, vec2 tile_px, vec3 near_eye, float bound,
-                vec3 background) {
-  Traced traced;
-  traced.view = view;
-  traced.direction = rayDirection(view, tile_px);
-  const vec2 size_px = vec2(scene.extent.size_px);
-  const Ray ray =
-      kIsCubeFace ? makeFaceRay(near_eye, traced.direction, size_px, scene.inv_z_near,
-                                traced.stretch)
-      : kRaysArePlain ? makePlainRay(near_eye, traced.direction, size_px, scene.inv_z_near)
-                      : makeAnyRay(near_eye, traced.direction, size_px, scene.inv_z_near);
-  const WalkStart start = startOf(scene, ray, bound);
-  Walk walk = walkBeside(start);
-  if (ray.t_begin < ray.t_end) walk = walkRay(scene, ray, start, view.inv_z_tolerance, view.eye.z);
-  if (kLooksBehind && (view.shows & kShowsBehind) != 0u) walk = walkBehind(scene, view, ray, walk);
-  Light light;
-  if (kIsLayered)
-    light = layeredLight(scene, view, ray, walk);
-  else
-    light = opaqueLight(scene, ray, walk);
-  traced.ray = ray;
-  traced.walk = walk;
-  traced.seen = seenOf(scene, ray, walk, light, background);
-  traced.is_known = light.is_known;
-  return traced;
-}
-
-// From an eye that no other ray has.
-Traced traceFromOwnEye(Scene scene, ViewParams view, vec2 tile_px, vec3 background) {
-  if (kEyesInPlane) view.eye.z = 0.0;
-  const vec3 near_eye = view.eye * scene.inv_z_near;
-  const vec3 direction = rayDirection(view, tile_px);
-  const float bound = boundBetween(scene, near_eye, direction, direction);
-  return traceRay(scene, view, tile_px, near_eye, bound, background);
-}
-
-Traced tracePixel(Scene scene, ViewParams view, Run run, uint i, vec3 near_eye, float bound,
-                  vec3 background) {
-  const Aim aim = aimOf(vec2(float(run.first_x + i) + 0.5, run.tile_y));
-  view = viewOfPx(view, aim, uvec2(run.first_x + i, uint(run.tile_y)));
-  Traced traced;
-  if (kHasOwnEyes)
-    traced = traceFromOwnEye(scene, view, aim.tile_px, background);
-  else
-    traced = traceRay(scene, view, aim.tile_px, near_eye, bound, background);
-  traced.is_used = aim.is_used;
-  return traced;
-}
-
-#include "lib/lens/hidden_px.glsl"
+#include "lib/walk/walk_tasks.glsl"
+#include "lib/walk/walk_views.glsl"
 
 bool isOwn(Run run, uint i) {
   return i >= run.lead && i + run.trail < run.count;
@@ -115,7 +37,7 @@ bool isOwn(Run run, uint i) {
 // are left.
 void blendEdges(Scene scene, ViewParams view, Run run, uvec2 edges, uvec2 hidden, float bound) {
   const vec3 near_eye = view.eye * scene.inv_z_near;
-  const vec3 background = blendOfBackground();
+  const vec3 background = blendOfBackground(push.fill, kColorFormat);
   uvec2 pixels = edges | (edges << 1u) | uvec2(0u, edges.x >> 31u);
   Seen before;
   vec3 own_before = vec3(0.0);
@@ -143,7 +65,7 @@ void traceRun(Scene scene, ViewParams view, Task task, inout uvec3 counts) {
   const Run run = task.run;
   const vec3 near_eye = view.eye * scene.inv_z_near;
   const float bound = boundOfRun(scene, view, near_eye, run);
-  const vec3 background = blendOfBackground();
+  const vec3 background = blendOfBackground(push.fill, kColorFormat);
   // Bit i: an edge may lie between px i and i + 1.
   uvec2 edges = uvec2(0u);
   uvec2 hidden = uvec2(0u);
@@ -153,7 +75,7 @@ void traceRun(Scene scene, ViewParams view, Task task, inout uvec3 counts) {
     if (isNever(scene, 5u)) break;
     const Traced px = tracePixel(scene, view, run, i, near_eye, bound, background);
     if (kIsOneOfSeveral) {
-      const vec4 codes = vec4(codesOfBlend(px.seen.color), px.is_known ? 1.0 : 0.0);
+      const vec4 codes = vec4(codesOfBlend(px.seen.color, kColorFormat), px.is_known ? 1.0 : 0.0);
       const Places places = placesOf(px.view, px.direction, px.ray, px.walk);
       RayAnswer answer = answerOf(scene, Pinhole(extras.focal_px, extras.principal_px), px.view,
                                   px.ray, px.direction, px.walk, places, codes);
@@ -190,9 +112,15 @@ void traceRun(Scene scene, ViewParams view, Task task, inout uvec3 counts) {
   }
 }
 
+Scene sceneOfColors() {
+  Scene scene = pushedScene(push, (push.fill & kFillBorder) != 0u);
+  addColor(scene, push.color, kColorFormat, kColorIsScaled);
+  return scene;
+}
+
 void main() {
   if (kRaysOfHidden > 0u) {
-    traceHidden(pushedScene((push.fill & kFillBorder) != 0u));
+    traceHidden(sceneOfColors());
     return;
   }
   Task task;
@@ -207,8 +135,7 @@ void main() {
   uvec3 counts = uvec3(0u);
   if (kEyesInPlane) view.eye.z = 0.0;
   if (task.exists && view.is_used != 0u) {
-    const Scene scene = pushedScene((push.fill & kFillBorder) != 0u);
-    traceRun(scene, view, task, counts);
+    traceRun(sceneOfColors(), view, task, counts);
   }
   // All px have the rays that are counted.
   if (kIsOneOfSeveral || kIsOfBlocks) return;

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Px of a lens that the host gathers whose middle ray ends behind something: listed, then walked
-// by rays through the lens. A part of trace/walk_views.comp, which has traceFromOwnEye().
+// by rays through the lens.
 #ifndef VIEWLOOM_LIB_LENS_HIDDEN_PX_GLSL_
 #define VIEWLOOM_LIB_LENS_HIDDEN_PX_GLSL_
 
 #include "lib/lens/lens.glsl"
 #include "lib/lens/lens_rays.glsl"
+#include "lib/lens/traced_px.glsl"
 #include "lib/light/ray_light.glsl"
 #include "lib/light/srgb.glsl"
 #include "lib/light/store_px.glsl"
@@ -33,7 +34,7 @@ vec3 codesThroughLens(Scene scene, ViewParams view, uvec2 px, vec3 background) {
     const vec2 at = lens_points[point * kLensPatternArea_px + lensPatternIndex(px)];
     const vec2 place = vec2(px) + 0.5 + besideOf(point);
     const Traced ray = traceFromOwnEye(scene, viewThrough(view, at), place, background);
-    light += linearFromSrgb(codesOfBlend(ray.seen.color) / 255.0);
+    light += linearFromSrgb(codesOfBlend(ray.seen.color, kColorFormat) / 255.0);
     ++point;
     if (point == kRaysOfHidden) break;
   }
@@ -49,7 +50,8 @@ void traceHidden(Scene scene) {
   const uint row = index / push.atlas_width_px;
   const TilePx at = tilePxAt(index - row * push.atlas_width_px, push.first_row + row,
                              push.tile_size_px, push.tile_grid, push.padding_top_px);
-  const vec3 codes = codesThroughLens(scene, views[at.tile], at.px, blendOfBackground());
+  const vec3 background = blendOfBackground(push.fill, kColorFormat);
+  const vec3 codes = codesThroughLens(scene, views[at.tile], at.px, background);
   if (exists) storeHidden(index, codes);
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Colour of a pixel from the hit of its ray. Parameters that the kernel sets: `push`, a TracePush
-// or a GatherPush, and the constants of lib/walk/walk_views.glsl that it reads.
+// Colour of a pixel from the hit of its ray.
 #ifndef VIEWLOOM_LIB_LIGHT_RAY_LIGHT_GLSL_
 #define VIEWLOOM_LIB_LIGHT_RAY_LIGHT_GLSL_
 
@@ -14,33 +13,39 @@
 // Light that is left after semitransparent surfaces and is not worth another surface.
 const float kTransmittanceMin = 1.0 / 255.0;
 
+// The colours of a scene, for those functions below that take it. `format` and `is_scaled` are
+// constants of the kernel.
+void addColor(inout Scene scene, Address texels[kLayerCountMax], uint format, bool is_scaled) {
+  scene.color = ColorPlanes(texels, format, is_scaled);
+}
+
 // `clean`: of lib/light/color.glsl.
 vec4 surfaceColor(Scene scene, uint layer, ivec2 cell, uint links, vec2 point, vec2 clean) {
-  if (kColorIsScaled) {
+  if (scene.color.is_scaled) {
     // By either axis: texels are no columns, and what a silhouette has mixed with one of them along
     // one axis shows along the other.
     const ScaledColor from =
-        ScaledColor(push.color, ColorSizes(extras.color_size_px, extras.color_stride), kColorFormat,
-                    scene.layer_count, scene.kappa, max(clean.x, clean.y));
+        ScaledColor(scene.color.texels, ColorSizes(extras.color_size_px, extras.color_stride),
+                    scene.color.format, scene.layer_count, scene.kappa, max(clean.x, clean.y));
     return surfaceColorScaled(scene.layers, scene.extent, from,
                               SurfacePlace(point, cell, layer, links));
   }
-  return surfaceColorPerFacet(scene.layers, push.color, scene.extent, kColorFormat, layer, cell,
-                              links, point, clean);
+  return surfaceColorPerFacet(scene.layers, scene.color.texels, scene.extent, scene.color.format,
+                              layer, cell, links, point, clean);
 }
 
 // Codes 0..255 of a blend of texels.
-vec3 codesOfBlend(vec3 blend) {
-  if (holdsCodes(kColorFormat)) return blend;
-  return kColorFormat == kColorRgb16 ? codesFromRoots(blend) : codesFromLinear(blend);
+vec3 codesOfBlend(vec3 blend, uint color_format) {
+  if (holdsCodes(color_format)) return blend;
+  return color_format == kColorRgb16 ? codesFromRoots(blend) : codesFromLinear(blend);
 }
 
-// The background as texels are held.
-vec3 blendOfBackground() {
-  const vec3 codes = vec3(uvec3(push.fill, push.fill >> 8, push.fill >> 16) & 255u);
-  if (holdsCodes(kColorFormat)) return codes;
+// The background as texels are held. `fill`: of TracePush.
+vec3 blendOfBackground(uint fill, uint color_format) {
+  const vec3 codes = vec3(uvec3(fill, fill >> 8, fill >> 16) & 255u);
+  if (holdsCodes(color_format)) return codes;
   const vec3 light = linearFromSrgb(codes / 255.0);
-  return kColorFormat == kColorRgb16 ? rootsFromLinear(light) : light;
+  return color_format == kColorRgb16 ? rootsFromLinear(light) : light;
 }
 
 // Colour of a pixel; if nothing is known, the background. In units of texels
@@ -67,7 +72,7 @@ Walk walkBehind(Scene scene, ViewParams view, Ray ray, Walk first) {
   for (;;) {
     if (isNever(scene, 9u) || !first.is_hit) break;
     const WalkStart behind = WalkStart(walk.t, walk.cell, walk.layer + 1u);
-    walk = walkRay(scene, ray, behind, view.inv_z_tolerance, view.eye.z);
+    walk = walkRay(scene, kSeesThroughSurfaces, ray, behind, view.inv_z_tolerance, view.eye.z);
     const float inv_z = ray.start.z + walk.t * ray.extent.z;
     if (!walk.is_hit || abs(hit_inv_z - inv_z) > apart) break;
   }
@@ -107,9 +112,8 @@ Light opaqueLight(Scene scene, Ray ray, inout Walk walk) {
 // Semitransparent ones are composited front to back: each surface is walked on from, behind it. One
 // that is rough may be met again, in the same layer and no further on than what would be connected:
 // it counts once.
-Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
+Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first, vec3 background) {
   vec3 light = vec3(0.0);
-  const vec3 background = blendOfBackground();
   float transmittance = 1.0;
   Walk walk = first;
   WalkStart behind = WalkStart(0.0, first.cell, 0u);
@@ -129,7 +133,7 @@ Light layeredLight(Scene scene, ViewParams view, Ray ray, Walk first) {
     counted_layer = walk.layer;
     if (!walk.is_hit || transmittance <= kTransmittanceMin) return Light(vec4(light, 1.0), true);
     behind = WalkStart(walk.t, walk.cell, walk.layer + 1u);
-    walk = walkRay(scene, ray, behind, view.inv_z_tolerance, view.eye.z);
+    walk = walkRay(scene, kSeesThroughSurfaces, ray, behind, view.inv_z_tolerance, view.eye.z);
   }
 }
 

@@ -31,7 +31,7 @@ void storeHidden(uint index, vec3 codes) {
 }
 
 void storeColor(uint index, Seen seen) {
-  storeCodes(index, codesOfBlend(seen.color));
+  storeCodes(index, codesOfBlend(seen.color, kColorFormat));
 }
 
 // 1/Z of the view; 0 where nothing is hit.
@@ -44,7 +44,7 @@ float depthOf(Walk walk, Ray ray, vec3 eye, vec3 direction) {
 void storeShown(uint index, ViewParams view, Seen seen, float inv_z) {
   const bool shows_depth = (kShownBeside & view.shows & kShowsDepth) != 0u;
   const vec3 grey = vec3(float(depthCode(inv_z, extras.depth_scale)));
-  storeCodes(index, shows_depth ? grey : codesOfBlend(seen.color));
+  storeCodes(index, shows_depth ? grey : codesOfBlend(seen.color, kColorFormat));
 }
 
 void storeOthers(uint index, Walk walk, bool is_known, Ray ray, vec3 eye, vec3 direction) {

@@ -17,6 +17,9 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Sur
   SurfaceTexel at[];
 };
 
+// Rays begin behind the layers in front of their surface, and know no other side of surfaces.
+const WalkRules kMeetsReflections = WalkRules(true, true);
+
 // A place on a surface.
 struct Spot {
   vec3 point;  // x px, y px, inv_z

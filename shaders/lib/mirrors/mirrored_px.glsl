@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reflected light of the pixels of a band, by the surfaces of one source: an invocation a px.
-// Parameters that the kernel sets: the constants of trace/reflect.comp, `push`, a TracePush, and
-// follow(), which finds the hit of a reflected ray.
 #ifndef VIEWLOOM_LIB_MIRRORS_MIRRORED_PX_GLSL_
 #define VIEWLOOM_LIB_MIRRORS_MIRRORED_PX_GLSL_
 
@@ -28,10 +26,18 @@ layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer Rec
 #include "lib/mirrors/reflection_counts.glsl"
 #include "lib/rays/tile_px.glsl"
 
-vec3 linearOfBlend(vec3 blend) {
-  if (holdsCodes(kColorFormat)) return linearFromSrgb(blend / 255.0);
-  return kColorFormat == kColorRgb16 ? pow(blend, vec3(2.4)) : blend;
+vec3 linearOfBlend(vec3 blend, uint color_format) {
+  if (holdsCodes(color_format)) return linearFromSrgb(blend / 255.0);
+  return color_format == kColorRgb16 ? pow(blend, vec3(2.4)) : blend;
 }
+
+// Constants of a kernel that reflects.
+struct ReflectRules {
+  uint rays;  // of the px: kRaysOf...
+  bool through_lens;
+  uint color_format;
+  bool color_is_scaled;
+};
 
 // Result of a reflected ray.
 struct Found {
@@ -42,6 +48,7 @@ struct Found {
   float certainty;    // of light that does not come from the environment
 };
 
+// The hit of a reflected ray. A function of each kernel: this is what they differ in.
 Found follow(Scene scene, Pinhole pinhole, Spot from, Reflected reflected);
 
 // All rays of a px.
@@ -111,15 +118,15 @@ Gathered gather(Scene scene, Pinhole pinhole, Spot first, Mirror first_mirror, P
   return sum;
 }
 
-ReflectedLight reflectedLight(Scene scene, uint index, uvec2 tile_px, ViewParams view,
-                              inout uvec3 counts) {
+ReflectedLight reflectedLight(Scene scene, ReflectRules rules, uint index, uvec2 tile_px,
+                              ViewParams view, inout uvec3 counts) {
   const RayRecord record = RecordsRef(extras.records).at[index];
-  const Aim aim = aimOf(vec2(tile_px) + 0.5);
+  const Aim aim = aimOf(vec2(tile_px) + 0.5, rules.rays);
   const bool is_hit = record.ray_class == kClassHit || record.ray_class == kClassHitAssumed;
   const bool is_shown = is_hit && aim.is_used && record.inv_z > 0.0 &&
                         (view.shows & kShowsDepth) == 0u;
   if (!is_shown) return kNothingReflected;
-  view = viewOfPx(view, aim, tile_px);
+  view = viewOfPx(view, aim, tile_px, rules.rays, rules.through_lens);
   const Pinhole pinhole = Pinhole(extras.focal_px, extras.principal_px);
   const Spot spot = spotAt(scene, vec3(record.x_px, record.y_px, record.inv_z));
   const Mirror mirror = mirrorAt(scene, pinhole, settings.surfaces, normalAxes(), spot);
@@ -139,7 +146,8 @@ ReflectedLight reflectedLight(Scene scene, uint index, uvec2 tile_px, ViewParams
                      gathered.closeness, packedPlace(mirror.normal, spot.point.z));
 }
 
-void main() {
+// The px of this invocation.
+void reflectPx(TracePush push, ReflectRules rules) {
   const uint row = push.first_row + gl_WorkGroupID.y;
   const uint x = gl_GlobalInvocationID.x;
   const TilePx at = tilePxAt(x, row, push.tile_size_px, push.tile_grid, push.padding_top_px);
@@ -149,7 +157,9 @@ void main() {
   if (at.exists) {
     const ViewParams view = views[at.tile];
     if (view.is_used != 0u) {
-      light = reflectedLight(pushedScene(false), index, at.px, view, counts);
+      Scene scene = pushedScene(push, false);
+      addColor(scene, push.color, rules.color_format, rules.color_is_scaled);
+      light = reflectedLight(scene, rules, index, at.px, view, counts);
     }
   }
   if (x < push.atlas_width_px) reflected_band[index] = light;

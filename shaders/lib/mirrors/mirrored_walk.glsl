@@ -21,7 +21,8 @@ Walk walkMirrored(Scene scene, Spot from, Reflected reflected) {
   const uint behind_count = from.layer + (hasFault(kFaultBeginsBehind) ? 1u : 0u);
   const WalkStart start = WalkStart(ray.t_begin, from.cell, behind_count);
   if (ray.t_begin >= ray.t_end) return walkBeside(start);
-  return walkRay(scene, ray, start, reflected.inv_z_tolerance, reflected.eye_z);
+  return walkRay(scene, kMeetsReflections, ray, start, reflected.inv_z_tolerance,
+                 reflected.eye_z);
 }
 
 Found foundBy(Scene scene, Pinhole pinhole, Spot from, Ray ray, Walk walked) {
@@ -41,7 +42,8 @@ Found foundBy(Scene scene, Pinhole pinhole, Spot from, Ray ray, Walk walked) {
   found.certainty = is_unseen ? certainty(pinhole, from, ray, walk.passed_t, end_t)
                               : float(walk.is_hit);
   found.certainty = light.is_known ? found.certainty : 0.0;
-  found.light = mix(settings.environment, linearOfBlend(light.color.rgb), found.certainty);
+  const vec3 met_light = linearOfBlend(light.color.rgb, scene.color.format);
+  found.light = mix(settings.environment, met_light, found.certainty);
   const vec3 point = ray.start + end_t * ray.extent;
   found.spot = Spot(point, walk.cell, walk.layer);
   return found;

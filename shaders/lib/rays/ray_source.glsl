@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the rays of px come from: the eye of the view, or eyes beside it, on panels with lenses. A
-// parameter that the kernel sets: kRays.
+// Where the rays of px come from: the eye of the view, or eyes beside it, on panels with lenses.
 #ifndef VIEWLOOM_LIB_RAYS_RAY_SOURCE_GLSL_
 #define VIEWLOOM_LIB_RAYS_RAY_SOURCE_GLSL_
 
@@ -64,10 +63,10 @@ Aim aimThroughMicrolens(Microlenses lenses, vec2 px) {
   return aim;
 }
 
-// `px`: of the tile.
-Aim aimOf(vec2 px) {
-  if (kRays == kRaysOfMicrolenses) return aimThroughMicrolens(extras.microlenses, px);
-  if (kRays == kRaysOfLenticular) return aimThroughLens(extras.lenticular, uvec2(px));
+// `px`: of the tile. `rays`: kRaysOf..., a constant of the kernel.
+Aim aimOf(vec2 px, uint rays) {
+  if (rays == kRaysOfMicrolenses) return aimThroughMicrolens(extras.microlenses, px);
+  if (rays == kRaysOfLenticular) return aimThroughLens(extras.lenticular, uvec2(px));
   return Aim(px, vec2(0.0), true);
 }
 

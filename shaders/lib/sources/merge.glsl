@@ -31,13 +31,13 @@ bool isRefuted(RayAnswer assumed, RayAnswer by) {
          !areOne(assumed, by);
 }
 
-bool isRefuted(RayAnswer answer, uint source_count) {
+bool isRefuted(RayAnswer answer, Asked asked) {
   bool is_refuted = false;
   uint other = 0u;
   for (;;) {
-    is_refuted = is_refuted || isRefuted(answer, loadAnswer(other));
+    is_refuted = is_refuted || isRefuted(answer, loadAnswer(asked, other));
     ++other;
-    if (other >= source_count) break;
+    if (other >= asked.source_count) break;
   }
   return is_refuted;
 }
@@ -65,51 +65,51 @@ vec4 lightOf(RayAnswer answer) {
 }
 
 // Nobody hits.
-Merged mergedEnd(uint source_count) {
+Merged mergedEnd(Asked asked) {
   uint best = 0u;
   uint visits = 0u;
   uint source = 0u;
   for (;;) {
-    const RayAnswer answer = loadAnswer(source);
+    const RayAnswer answer = loadAnswer(asked, source);
     visits += answer.visits;
-    if (saysMore(answer, loadAnswer(best))) best = source;
+    if (saysMore(answer, loadAnswer(asked, best))) best = source;
     ++source;
-    if (source >= source_count) break;
+    if (source >= asked.source_count) break;
   }
-  const RayAnswer answer = loadAnswer(best);
+  const RayAnswer answer = loadAnswer(asked, best);
   return Merged(answer.ray_class, 0.0, lightOf(answer), best, visits);
 }
 
 // The nearest of the hits that nobody refutes; of two at one place the certain one.
-uint nearestHit(uint source_count) {
-  uint nearest = source_count;
+uint nearestHit(Asked asked) {
+  uint nearest = asked.source_count;
   uint source = 0u;
   for (;;) {
-    const RayAnswer answer = loadAnswer(source);
-    if (isHit(answer) && (hasFault(kFaultNoRefuting) || !isRefuted(answer, source_count))) {
-      const RayAnswer best = loadAnswer(min(nearest, source_count - 1u));
+    const RayAnswer answer = loadAnswer(asked, source);
+    if (isHit(answer) && (hasFault(kFaultNoRefuting) || !isRefuted(answer, asked))) {
+      const RayAnswer best = loadAnswer(asked, min(nearest, asked.source_count - 1u));
       const bool is_nearer = hasFault(kFaultFarthestHit) ? answer.view_inv_z < best.view_inv_z
                                                          : answer.view_inv_z > best.view_inv_z;
       const bool is_surer =
           answer.view_inv_z == best.view_inv_z && answer.ray_class < best.ray_class;
-      if (nearest == source_count || is_nearer || is_surer) nearest = source;
+      if (nearest == asked.source_count || is_nearer || is_surer) nearest = source;
     }
     ++source;
-    if (source >= source_count) break;
+    if (source >= asked.source_count) break;
   }
   return nearest;
 }
 
 // Hits on the same surface as the nearest one blend; if some of them are certain, those alone.
-Merged mergedHit(uint nearest, uint source_count) {
-  const RayAnswer near = loadAnswer(nearest);
+Merged mergedHit(uint nearest, Asked asked) {
+  const RayAnswer near = loadAnswer(asked, nearest);
   bool is_certain = false;
   uint source = 0u;
   for (;;) {
-    const RayAnswer answer = loadAnswer(source);
+    const RayAnswer answer = loadAnswer(asked, source);
     is_certain = is_certain || (answer.ray_class == kClassHit && areOne(answer, near));
     ++source;
-    if (source >= source_count) break;
+    if (source >= asked.source_count) break;
   }
   const uint ray_class = is_certain ? kClassHit : kClassHitAssumed;
   Merged merged = Merged(ray_class, 0.0, vec4(0.0), nearest, 0u);
@@ -117,7 +117,7 @@ Merged mergedHit(uint nearest, uint source_count) {
   float weight_max = -1.0;
   source = 0u;
   for (;;) {
-    const RayAnswer answer = loadAnswer(source);
+    const RayAnswer answer = loadAnswer(asked, source);
     merged.visits += answer.visits;
     const bool blends = answer.ray_class == ray_class && areOne(answer, near) &&
                         !(hasFault(kFaultNoBlend) && source != nearest);
@@ -130,20 +130,20 @@ Merged mergedHit(uint nearest, uint source_count) {
     merged.main_source = blends && weight > weight_max ? source : merged.main_source;
     weight_max = blends ? max(weight, weight_max) : weight_max;
     ++source;
-    if (source >= source_count) break;
+    if (source >= asked.source_count) break;
   }
   merged.view_inv_z /= weight_sum;
   merged.light /= weight_sum;
   return merged;
 }
 
-Merged mergeAnswers(uint source_count) {
-  uint nearest = nearestHit(source_count);
-  if (hasFault(kFaultHiddenWins) && mergedEnd(source_count).ray_class == kClassHidden) {
-    nearest = source_count;
+Merged mergeAnswers(Asked asked) {
+  uint nearest = nearestHit(asked);
+  if (hasFault(kFaultHiddenWins) && mergedEnd(asked).ray_class == kClassHidden) {
+    nearest = asked.source_count;
   }
-  if (nearest == source_count) return mergedEnd(source_count);
-  return mergedHit(nearest, source_count);
+  if (nearest == asked.source_count) return mergedEnd(asked);
+  return mergedHit(nearest, asked);
 }
 
 #endif  // VIEWLOOM_LIB_SOURCES_MERGE_GLSL_

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// The source that a kernel walks. A parameter that the kernel sets: `push`, a
-// TracePush.
+// The source that a kernel walks.
 #ifndef VIEWLOOM_LIB_WALK_PUSHED_SCENE_GLSL_
 #define VIEWLOOM_LIB_WALK_PUSHED_SCENE_GLSL_
 
 #include "lib/rays/tile_px.glsl"
 #include "lib/walk/walk.glsl"
 
-Scene pushedScene(bool fills_border) {
+// Without its colours, which addColor() adds where light is asked for.
+Scene pushedScene(TracePush push, bool fills_border) {
   Scene scene;
   scene.layers = push.layers;
   scene.layer_count = push.layer_count;

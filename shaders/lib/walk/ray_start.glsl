@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where walks of rays start: as far along as nothing can be before. A parameter that the
-// kernel sets: kRaysArePlain.
+// Where walks of rays start: as far along as nothing can be before.
 #ifndef VIEWLOOM_LIB_WALK_RAY_START_GLSL_
 #define VIEWLOOM_LIB_WALK_RAY_START_GLSL_
 
@@ -41,9 +40,9 @@ float startBound(Scene scene, vec2 low_px, vec2 high_px) {
 }
 
 // The start of a ray: as far along as nothing can be, then the column it is in; the border next to
-// where it goes when it never sees the image.
-WalkStart startOf(Scene scene, Ray ray, float bound) {
-  const bool goes_away = kRaysArePlain || (ray.extent.z < 0.0 && ray.start.z > bound);
+// where it goes when it never sees the image. `is_plain`: all rays of the kernel are plain.
+WalkStart startOf(Scene scene, Ray ray, float bound, bool is_plain) {
+  const bool goes_away = is_plain || (ray.extent.z < 0.0 && ray.start.z > bound);
   const float t_bound = goes_away ? (bound - ray.start.z) / ray.extent.z : 0.0;
   const float t = ray.t_begin < ray.t_end ? min(max(t_bound, ray.t_begin), ray.t_end) : 1.0;
   return WalkStart(t, columnAt(scene, ray.start.xy + t * ray.extent.xy), kStateUnknown);

@@ -12,10 +12,6 @@
 //
 // Two loops: the inner one steps from cell to cell, one load a visit and no branch; what is rare
 // (an edge that may be linked, the end of a layer) stops it and is dealt with by the outer one.
-//
-// Parameters that the kernel sets. kSeesThrough: whether walks begin at surfaces that were seen
-// through. kMeetsBacks: whether a ray that comes out through a surface from behind has met what the
-// surface hides, and ends there.
 #ifndef VIEWLOOM_LIB_WALK_WALK_GLSL_
 #define VIEWLOOM_LIB_WALK_WALK_GLSL_
 
@@ -31,7 +27,8 @@
 const float kRounding = 16.0 / 8388608.0;
 const uvec4 kLayers = uvec4(0u, 1u, 2u, 3u);
 
-Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float eye_z) {
+Walk walkRay(Scene scene, WalkRules rules, Ray ray, WalkStart start, float inv_z_tolerance,
+             float eye_z) {
   const bvec2 goes_back = lessThan(ray.extent.xy, vec2(0.0));
   const ivec2 flip = mix(ivec2(0), ivec2(-1), goes_back);
   const uint slope_flip = (goes_back.x ? kSlopeSigns.x : 0u) | (goes_back.y ? kSlopeSigns.y : 0u);
@@ -60,7 +57,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
   uint layer = 0u;
   // The cell a walk restarts in: the surfaces that it starts behind stay behind it.
   bool just_left =
-      kSeesThrough && start.behind_count != kStateUnknown && start.behind_count > 0u;
+      rules.sees_through && start.behind_count != kStateUnknown && start.behind_count > 0u;
   Place at = Place(start.t, start.cell ^ flip, kAxisNone);
   // A ray in its first column counts as in front until it is seen not to be.
   bool in_front = !just_left;
@@ -140,7 +137,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       front_from = is_exact ? plane_from : all_front ? 1.0 : -1.0;
       front_to = is_exact ? plane_to : front_from;
       // Out from behind a plane that falls below the sky before the ray ends there.
-      const bool still_behind = kSeesThrough && just_left;
+      const bool still_behind = rules.sees_through && just_left;
       const bool comes_out_over_sky =
           is_exact && !still_behind && to_inv_z <= 0.0 && above_to > error;
       front_from = still_behind ? min(front_from, 0.0) : front_from;
@@ -159,7 +156,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
                 front_from * far_to + front_at_end * from_far <= 0.0;
       const bool hits =
           passes && !met_far && (front_from > 0.0 || comes_out_over_sky) && front_to <= 0.0;
-      const bool meets_backs = kMeetsBacks && !hasFault(kFaultBacksPassed);
+      const bool meets_backs = rules.meets_backs && !hasFault(kFaultBacksPassed);
       const bool comes_out = meets_backs && passes && !met_far && !in_front && !still_behind &&
                              (front_from > 0.0 || front_to > 0.0);
       // A ray that comes out by less than rounding might meet the next facet as a step up.
@@ -222,7 +219,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       far_inv_z = crossing.far_inv_z;
     }
     // Out from behind a surface; between two facets of it, or past its end.
-    const bool leaves_surface = kMeetsBacks && event == kComesOut;
+    const bool leaves_surface = rules.meets_backs && event == kComesOut;
     const bool passes_end = leaves_surface && front_from > 0.0 &&
                             !goesOnBefore(scene, layer, Place(at.t, at.cell ^ flip, at.axis),
                                           direction);
@@ -273,7 +270,7 @@ Walk walkRay(Scene scene, Ray ray, WalkStart start, float inv_z_tolerance, float
       goes_on = layer + 1u < scene.layer_count && !hasFault(kFaultLayerDropped);
       ++layer;
       at = passed;
-      just_left = kSeesThrough && passed.axis == kAxisNone &&
+      just_left = rules.sees_through && passed.axis == kAxisNone &&
                   start.behind_count != kStateUnknown && layer < start.behind_count;
       in_front = !just_left;
       level = just_left ? kLevelFacets : kLevelEntries;

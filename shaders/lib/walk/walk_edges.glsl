@@ -7,6 +7,13 @@
 #include "lib/structure/structure_access.glsl"
 #include "shared/trace_abi.h"
 
+// Colour planes of a source.
+struct ColorPlanes {
+  Address texels[kLayerCountMax];  // of each layer
+  uint format;                     // kColor...
+  bool is_scaled;                  // they have another size than depth
+};
+
 // Structure that is walked through.
 struct Scene {
   Address layers[kLayerCountMax];
@@ -17,6 +24,7 @@ struct Scene {
   vec3 kappa;         // steps within a surface (stepAt)
   vec3 deep;          // and between two things
   bool fills_border;  // else what leaves the image takes the background
+  ColorPlanes color;  // where light is asked for
 };
 
 // Measurements of the build. Two of them are divisors, and never 0.

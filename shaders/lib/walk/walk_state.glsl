@@ -9,6 +9,17 @@
 // behind_count and in front of the others, at a surface that was seen through.
 const uint kStateUnknown = 0xffu;
 
+// Kinds of surfaces that a kernel's walks meet. Constants: compilers leave out what they rule out.
+struct WalkRules {
+  bool sees_through;  // walks may begin at surfaces that were seen through
+  // A ray that comes out through a surface from behind has met what the surface hides, and ends
+  // there.
+  bool meets_backs;
+};
+
+const WalkRules kSeesFirstSurfaces = WalkRules(false, false);
+const WalkRules kSeesThroughSurfaces = WalkRules(true, false);
+
 struct WalkStart {
   float t;
   ivec2 cell;

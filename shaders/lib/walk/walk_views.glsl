@@ -37,7 +37,6 @@ const bool kHasOwnEyes = kRays != kRaysOfPinholes || kThroughLens || kRaysOfHidd
 const bool kIsLayered = kColorFormat == kColorRgba16f;
 const bool kLooksBehind = (kShownBeside & kShowsBehind) != 0u;
 const bool kSeesThrough = kIsLayered || kLooksBehind;
-const bool kMeetsBacks = false;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
 };

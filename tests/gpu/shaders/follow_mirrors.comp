@@ -8,13 +8,6 @@
 #include "lib/memory.glsl"
 
 layout(local_size_x = kTraceGroupSize) in;
-const uint kColorFormat = kColorRgba8;
-const bool kColorIsScaled = false;
-const uint kRays = kRaysOfPinholes;
-const bool kThroughLens = false;
-const bool kRaysArePlain = false;
-const bool kSeesThrough = true;
-const bool kMeetsBacks = true;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
 };
@@ -39,4 +32,8 @@ Found follow(Scene scene, Pinhole pinhole, Spot from, Reflected reflected) {
       FollowedRay(1u, from.layer, classOf(walk), walk.is_back ? 1u : 0u, walk.layer, point.x,
                   point.y, point.z, passed.x, passed.y, passed.z, body, met.x, met.y, met.z);
   return foundBy(scene, pinhole, from, ray, walk);
+}
+
+void main() {
+  reflectPx(push, ReflectRules(kRaysOfPinholes, false, kColorRgba8, false));
 }

@@ -14,13 +14,6 @@
 #include "rival_abi.h"
 
 layout(local_size_x = kTraceGroupSize) in;
-const uint kColorFormat = kColorRgba8;
-const bool kColorIsScaled = false;
-const uint kRays = kRaysOfPinholes;
-const bool kThroughLens = false;
-const bool kRaysArePlain = false;
-const bool kSeesThrough = true;
-const bool kMeetsBacks = false;
 layout(push_constant, scalar) uniform Push {
   TracePush push;
   MarchKnobs knobs;
@@ -142,7 +135,12 @@ Found follow(Scene scene, Pinhole pinhole, Spot from, Reflected reflected) {
   found.meets_surface = walk.is_hit && light.is_known;
   found.ending = found.meets_surface ? kReflectionHit : kReflectionEnvironment;
   found.certainty = float(found.meets_surface);
-  found.light = found.meets_surface ? linearOfBlend(light.color.rgb) : settings.environment;
+  found.light = found.meets_surface ? linearOfBlend(light.color.rgb, scene.color.format)
+                                    : settings.environment;
   found.spot = Spot(ray.start + walk.t * ray.extent, walk.cell, walk.layer);
   return found;
+}
+
+void main() {
+  reflectPx(push, ReflectRules(kRaysOfPinholes, false, kColorRgba8, false));
 }
