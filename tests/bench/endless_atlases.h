@@ -10,7 +10,7 @@
 
 namespace viewloom::bench {
 
-// Gives the one viewer of a display an atlas as soon as the last one has left: the same bytes again
+// Gives the one viewer of a display the next atlas while the last one leaves: the same bytes again
 // and again, as uncompressed colour.
 class EndlessAtlases {
  public:
