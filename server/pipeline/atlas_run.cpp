@@ -11,10 +11,6 @@ uint32_t ceilDivide(uint32_t value, uint32_t by) {
   return (value + by - 1) / by;
 }
 
-const Claim* claimOfRun(const AtlasRunPtr& run) {
-  return &run->claim;
-}
-
 AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
   AtlasOutput output;
   output.band_row_count = bandRowCount(display->encoding);
@@ -77,42 +73,6 @@ RayCounts AtlasRun::counts() const {
 int64_t AtlasRun::tracedNs() const {
   std::lock_guard lock(mutex_);
   return traced_ns_;
-}
-
-void BegunRuns::remove(const AtlasRun& run) {
-  std::erase_if(runs_, [&](const AtlasRunPtr& begun) { return begun.get() == &run; });
-}
-
-void BegunRuns::clear() {
-  for (const AtlasRunPtr& run : runs_) run->making = nullptr;
-  runs_.clear();
-}
-
-bool BegunRuns::hasTracked(const Payers& payers) const {
-  return std::ranges::any_of(runs_, [&](const AtlasRunPtr& run) {
-    return run->isTracked() && run->claim.payers == payers;
-  });
-}
-
-std::vector<AtlasRunPtr> BegunRuns::inOrder() const {
-  std::vector<AtlasRunPtr> left = runs_;
-  std::vector<AtlasRunPtr> ordered;
-  while (!left.empty()) {
-    const auto next = left.begin() + (shares_.next(left, claimOfRun) - left.data());
-    ordered.push_back(std::move(*next));
-    left.erase(next);
-  }
-  return ordered;
-}
-
-AtlasRunPtr BegunRuns::first() const {
-  const AtlasRunPtr* const first = shares_.next(runs_, claimOfRun);
-  return first == nullptr ? nullptr : *first;
-}
-
-const Claim* BegunRuns::firstClaim() const {
-  const AtlasRunPtr run = first();
-  return run == nullptr ? nullptr : &run->claim;
 }
 
 }  // namespace viewloom

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One atlas on its way: what is being traced, for whom, and the bands that are already packed. And
-// those that an engine has begun.
+// One atlas on its way: what is being traced, for whom, and the bands that are already packed.
 #pragma once
 
 #include <atomic>
@@ -88,33 +87,5 @@ class AtlasRun {
 };
 
 using AtlasRunPtr = std::shared_ptr<AtlasRun>;
-
-// The atlases that one engine has begun, and whose turn it is at its device.
-// Thread-safety: none; the picture loop's.
-class BegunRuns {
- public:
-  // The shares outlive it.
-  explicit BegunRuns(const FairShares& shares) : shares_(shares) {}
-
-  void add(AtlasRunPtr run) { runs_.push_back(std::move(run)); }
-  void remove(const AtlasRun& run);
-  // Lets go of them, and of what their making holds.
-  void clear();
-  bool isEmpty() const { return runs_.empty(); }
-
-  // One of a tracked display of these payers.
-  bool hasTracked(const Payers& payers) const;
-  // The one that goes first; nullptr = nothing has begun.
-  AtlasRunPtr first() const;
-  const Claim* firstClaim() const;
-  // In the order in which they go.
-  std::vector<AtlasRunPtr> inOrder() const;
-  // All that have begun.
-  const std::vector<AtlasRunPtr>& all() const { return runs_; }
-
- private:
-  const FairShares& shares_;
-  std::vector<AtlasRunPtr> runs_;
-};
 
 }  // namespace viewloom

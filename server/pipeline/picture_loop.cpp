@@ -7,6 +7,7 @@
 #include "base/log.h"
 #include "base/thread_name.h"
 #include "pipeline/atlas_order.h"
+#include "pipeline/frame_px.h"
 #include "pipeline/within_memory.h"
 
 namespace viewloom {
@@ -46,6 +47,11 @@ void PictureLoop::stop() {
   if (thread_.joinable()) thread_.join();
 }
 
+void PictureLoop::dropAll() {
+  for (const AtlasRunPtr& run : begun_.all()) run->making = nullptr;
+  begun_.clear();
+}
+
 void PictureLoop::run(const std::stop_token& stop) {
   while (!desk_.is_abandoned) {
     const bool may_begin = !stop.stop_requested();
@@ -63,12 +69,7 @@ void PictureLoop::run(const std::stop_token& stop) {
 bool PictureLoop::makePart(bool may_begin) {
   dropGivenUp();
   if (may_begin) beginDueJobs();
-  const AtlasRunPtr first = begun_.first();
-  if (!first) return false;
-  if (makePartOf(first)) return true;
-  // There is no room for it: others make room.
-  const std::vector<AtlasRunPtr> runs = begun_.inOrder();
-  return std::ranges::any_of(runs, [this](const AtlasRunPtr& run) { return makePartOf(run); });
+  return begun_.makeNext([this](const AtlasRunPtr& run) { return makePartOf(run); });
 }
 
 bool PictureLoop::makePartOf(const AtlasRunPtr& run) {
@@ -140,12 +141,6 @@ void PictureLoop::beginDueJobs() {
   const JobBoard::HasRoom has_room = [this](const Payers& payers) {
     return hasRoomForEyes(payers);
   };
-  std::vector<AtlasJob> prepared;
-  {
-    std::lock_guard lock(prepared_mutex_);
-    prepared.swap(prepared_);
-  }
-  for (AtlasJob& job : prepared) beginOrFinish(job);
   while (auto job = desk_.board.begin(rank_, begun_.firstClaim(), has_room)) beginOrFinish(*job);
 }
 
@@ -201,9 +196,8 @@ bool PictureLoop::begin(AtlasJob& job) {
   return true;
 }
 
-// Eyes wait for nothing, and ticks show frames as they are.
 bool PictureLoop::waitsForNewer(AtlasJob& job) {
-  if (job.has_asked || job.is_tracked || job.tick) return false;
+  if (!asksForNewer(job)) return false;
   job.has_asked = true;
   if (!desk_.ask_newer(job.structure->stream, job.picture_key)) return false;
   putBack(std::move(job));
@@ -243,16 +237,15 @@ void PictureLoop::prepareForm(AtlasJob job, ResidentPtr structure,
                               std::vector<ActiveDisplayPtr> displays) {
   Claim claim = claimOf(job);
   const auto kept = std::make_shared<AtlasJob>(std::move(job));
+  const uint64_t px_count = pxOf(*structure);
   desk_.prepare_form(
       {.structure = std::move(structure),
        .engine = rank_,
        .claim = std::move(claim),
+       .px_count = px_count,
        .then = [this, kept, displays = std::move(displays)](const absl::Status& status) {
          if (!status.ok()) refuse(displays, status);
-         {
-           std::lock_guard lock(prepared_mutex_);
-           prepared_.push_back(std::move(*kept));
-         }
+         desk_.board.resume(std::move(*kept), rank_);
          wake_up_.ring();
        }});
 }

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <thread>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "pipeline/plan_cache.h"
 #include "pipeline/structure_loop.h"
 #include "pipeline/wake_up.h"
+#include "schedule/begun_work.h"
 #include "schedule/job_board.h"
 #include "schedule/served_displays.h"
 
@@ -56,10 +56,7 @@ class PictureLoop {
   // Finishes the atlases that have begun, and no others.
   void stop();
   // Forgets what will not be finished, once the loop has ended.
-  void dropAll() {
-    begun_.clear();
-    prepared_.clear();
-  }
+  void dropAll();
 
  private:
   void run(const std::stop_token& stop);
@@ -74,7 +71,7 @@ class PictureLoop {
   // False when no atlas comes of the job.
   bool begin(AtlasJob& job);
   void handOver(AtlasJob job, size_t engine);
-  // Whether the job waits for a newer frame, and so does not begin yet.
+  // Whether the job waits for a newer frame, and so does not begin yet; it asks once.
   bool waitsForNewer(AtlasJob& job);
   void refuse(const std::vector<ActiveDisplayPtr>& displays, const absl::Status& status) const;
   // A structure of the job whose form for this engine is still to be prepared; nullptr = there is
@@ -99,9 +96,7 @@ class PictureLoop {
   const PictureDesk& desk_;
   const size_t rank_;
   Engine& engine_;
-  BegunRuns begun_;  // the thread's
-  std::mutex prepared_mutex_;
-  std::vector<AtlasJob> prepared_;  // jobs whose form was prepared; guarded by prepared_mutex_
+  BegunWork<AtlasRun> begun_;  // the thread's
   WakeUp& wake_up_;
   std::jthread thread_;  // last: it uses all of the above
 };

@@ -16,7 +16,7 @@
 #include "base/latest_mailbox.h"
 #include "base/slot_pool.h"
 #include "engine/engines.h"
-#include "schedule/build_gate.h"
+#include "schedule/build_queue.h"
 #include "schedule/fair_shares.h"
 #include "schedule/stream_frames.h"
 
@@ -43,6 +43,8 @@ class PipelineStream {
   ResidentPtr resident() const { return newest().structure; }
   void setNewest(StreamInstant newest);
   void setMotion(const CameraMotion& motion);
+  // One waits to be built; while nobody works on the stream.
+  bool hasFrame() const { return !inbox.empty() || frames.next() != nullptr; }
   // The publisher pays for its structures.
   void notePublisher(const Payer& publisher);
   Claim claim() const;
@@ -51,13 +53,9 @@ class PipelineStream {
   const uint32_t slot_count;  // without the structure before the newest
   LatestMailbox<OfferedFrame> inbox;
   SlotPool<FrameForms> slots;
-  StreamPreparers preparers;  // of those slots
-  // Under the loop's mutex.
-  bool is_in_hand = false;                 // a thread works on it
-  bool takes_long = false;                 // its next frame does
-  std::optional<uint64_t> served_in_vain;  // change that was the last when there was no slot
+  StreamPreparers preparers;               // of those slots
+  StreamTurn turn;                         // under the loop's mutex
   StreamFrames frames;                     // since they were taken from the inbox
-  BuildGate gate;
   std::atomic<bool> is_asked = false;      // a picture could begin with a newer frame; any thread's
   CostEstimate px_cost{kBuiltPxStart_ns};  // of a px of a frame
   std::shared_ptr<StreamRetimer> retimer;  // since a frame came in which something moves by itself

@@ -14,21 +14,12 @@
 #include "pipeline/within_memory.h"
 
 namespace viewloom {
-namespace {
-
-// Builds up to this long are made by the thread that makes no longer ones.
-constexpr int64_t kShortBuild_ns = 50'000'000;
-// Time of a px of a form until something was measured.
-constexpr double kFormPxStart_ns = 30;
-
-}  // namespace
-
 StructureLoop::StructureLoop(const Links& links, OnResident on_resident, OnServed on_served)
     : links_(links),
       on_resident_(std::move(on_resident)),
       on_served_(std::move(on_served)),
-      form_px_cost_(kFormPxStart_ns) {
-  for (const Lane lane : {Lane::kAny, Lane::kShort}) {
+      queue_(links.shares) {
+  for (const BuildLane lane : {BuildLane::kAny, BuildLane::kShort}) {
     threads_.emplace_back([this, lane](const std::stop_token& stop) {
       nameThread("build");
       try {
@@ -43,7 +34,7 @@ StructureLoop::StructureLoop(const Links& links, OnResident on_resident, OnServe
 void StructureLoop::prepareForm(FormOrder order) {
   {
     std::lock_guard lock(mutex_);
-    forms_.push_back(std::move(order));
+    queue_.push(std::move(order));
   }
   links_.bell.ring();
 }
@@ -55,60 +46,39 @@ void StructureLoop::stop() {
   }
 }
 
-void StructureLoop::run(Lane lane, const std::stop_token& stop) {
+void StructureLoop::run(BuildLane lane, const std::stop_token& stop) {
   while (!stop.stop_requested()) {
-    Look look{.lane = lane, .change_count = links_.bell.count(), .until_ns = std::nullopt};
-    std::optional<Work> work;
+    const BuildQueue::Look look{
+        .lane = lane, .change_count = links_.bell.count(), .now_ns = links_.pipeline.clock.nowNs()};
+    Work work;
     const absl::Status status = withinMemory([&] { work = take(look); });
     if (!status.ok()) log(LogLevel::kWarning, "no memory is left to look for frames");
-    if (work) {
-      serve(*std::move(work), look, stop);
-      continue;
+    if (work.stream) {
+      serve(*work.stream, look, stop);
+    } else if (work.form) {
+      serve(*work.form, stop);
+    } else {
+      std::optional<std::chrono::nanoseconds> time;
+      if (work.until_ns) time = links_.pipeline.clock.napUntil(*work.until_ns);
+      links_.bell.waitForChange(look.change_count, stop, time);
     }
-    std::optional<std::chrono::nanoseconds> time;
-    if (look.until_ns) time = links_.pipeline.clock.napUntil(*look.until_ns);
-    links_.bell.waitForChange(look.change_count, stop, time);
   }
 }
 
-std::optional<StructureLoop::Work> StructureLoop::take(Look& look) {
+StructureLoop::Work StructureLoop::take(const BuildQueue::Look& look) {
   std::lock_guard lock(mutex_);
-  std::vector<Work> works;
-  addStreams(look, works);
-  for (const FormOrder& form : forms_) {
-    if (form_in_hand_.contains(form.structure.get())) continue;
-    const bool is_long = form_px_cost_.predictNs(pxOf(*form.structure)) > kShortBuild_ns;
-    if (look.lane == Lane::kShort && is_long) continue;
-    works.push_back({.claim = form.claim, .stream = nullptr, .form = form});
+  const std::vector<PipelineStreamPtr> streams = links_.streams.all();
+  std::vector<BuildQueue::StreamBuild> builds;
+  for (const PipelineStreamPtr& stream : streams) {
+    builds.push_back({.turn = &stream->turn,
+                      .has_frame = [&stream] { return stream->hasFrame(); },
+                      .demand = [this, &stream] { return demandOf(*stream); },
+                      .claim = [&stream] { return stream->claim(); }});
   }
-  const Work* const next = links_.shares.next(works, [](const Work& work) { return &work.claim; });
-  if (next == nullptr) return std::nullopt;
-  if (next->stream) {
-    next->stream->is_in_hand = true;
-  } else {
-    form_in_hand_.insert(next->form.structure.get());
-    const auto isTaken = [&](const FormOrder& form) {
-      return form.structure == next->form.structure && form.engine == next->form.engine &&
-             form.claim.display == next->form.claim.display;
-    };
-    forms_.erase(std::ranges::find_if(forms_, isTaken));
-  }
-  return *next;
-}
-
-// Those that have a frame that may be built now.
-void StructureLoop::addStreams(Look& look, std::vector<Work>& works) {
-  const int64_t now_ns = links_.pipeline.clock.nowNs();
-  for (const PipelineStreamPtr& stream : links_.streams.all()) {
-    if (stream->is_in_hand || stream->served_in_vain == look.change_count) continue;
-    if (stream->inbox.empty() && stream->frames.next() == nullptr) continue;
-    if (look.lane == Lane::kShort && stream->takes_long) continue;
-    if (const auto until_ns = stream->gate.waitUntilNs(demandOf(*stream), now_ns)) {
-      look.until_ns = std::min(look.until_ns.value_or(*until_ns), *until_ns);
-      continue;
-    }
-    works.push_back({.claim = stream->claim(), .stream = stream, .form = {}});
-  }
+  BuildQueue::Next next = queue_.take(look, builds);
+  return {.stream = next.stream ? streams[*next.stream] : nullptr,
+          .form = std::move(next.form),
+          .until_ns = next.until_ns};
 }
 
 StreamDemand StructureLoop::demandOf(const PipelineStream& stream) const {
@@ -121,57 +91,52 @@ StreamDemand StructureLoop::demandOf(const PipelineStream& stream) const {
           .is_asked = stream.is_asked};
 }
 
-void StructureLoop::serve(Work work, const Look& look, const std::stop_token& stop) {
-  if (!work.stream) {
-    serveForm(work.form, stop);
-    {
-      std::lock_guard lock(mutex_);
-      form_in_hand_.erase(work.form.structure.get());
-    }
-    links_.bell.ring();
-    return;
+void StructureLoop::serve(const FormOrder& form, const std::stop_token& stop) {
+  make(form, stop);
+  {
+    std::lock_guard lock(mutex_);
+    queue_.finish(form);
   }
-  PipelineStream& stream = *work.stream;
-  const Outcome outcome = serveStream(stream, look.lane, stop);
-  if (outcome != Outcome::kTooLong) {
+  links_.bell.ring();
+}
+
+void StructureLoop::serve(PipelineStream& stream, const BuildQueue::Look& look,
+                          const std::stop_token& stop) {
+  const BuildOutcome outcome = buildNext(stream, look.lane, stop);
+  if (outcome != BuildOutcome::kTooLong) {
     stream.is_asked = false;
     on_served_(stream.name);
   }
   {
     std::lock_guard lock(mutex_);
-    stream.is_in_hand = false;
-    stream.takes_long = outcome == Outcome::kTooLong;
-    stream.served_in_vain.reset();
-    if (outcome == Outcome::kNoSlot) stream.served_in_vain = look.change_count;
+    stream.turn.giveBack(outcome, look.change_count);
   }
-  if (outcome != Outcome::kNoSlot) links_.bell.ring();
+  if (outcome != BuildOutcome::kNoSlot) links_.bell.ring();
 }
 
-StructureLoop::Outcome StructureLoop::serveStream(PipelineStream& stream, Lane lane,
-                                                  const std::stop_token& stop) {
+BuildOutcome StructureLoop::buildNext(PipelineStream& stream, BuildLane lane,
+                                      const std::stop_token& stop) {
   if (auto newest = stream.inbox.take()) {
     const auto replaced = stream.frames.offer(*std::move(newest));
     if (replaced) links_.pipeline.metrics.replaced[HandOver::kStructure].add();
-    if (dropUnchanged(stream)) return Outcome::kServed;
+    if (dropUnchanged(stream)) return BuildOutcome::kServed;
   }
   const OfferedFrame* const next = stream.frames.next();
-  if (next == nullptr) return Outcome::kNothing;
-  if (lane == Lane::kShort && stream.px_cost.predictNs(pxOf(*next->frame)) > kShortBuild_ns) {
-    return Outcome::kTooLong;
-  }
+  if (next == nullptr) return BuildOutcome::kNothing;
+  if (!takes(lane, stream.px_cost.predictNs(pxOf(*next->frame)))) return BuildOutcome::kTooLong;
   std::shared_ptr<FrameForms> slot;
   const absl::Status has_slot = withinMemory([&] { slot = takeSlot(stream, next->frame); });
-  if (has_slot.ok() && !slot) return Outcome::kNoSlot;
+  if (has_slot.ok() && !slot) return BuildOutcome::kNoSlot;
   OfferedFrame offered = stream.frames.takeNext();
   const FrameTicketPtr ticket = offered.ticket;
   const absl::Status status =
       has_slot.ok()
           ? withinMemory([&] { build(stream, std::move(offered), std::move(slot), stop); })
           : has_slot;
-  if (status.ok()) return Outcome::kServed;
+  if (status.ok()) return BuildOutcome::kServed;
   log(LogLevel::kWarning, "stream ", stream.name, ": a frame is refused: ", status.message());
   ticket->noteRefused(std::string(status.message()));
-  return Outcome::kServed;
+  return BuildOutcome::kServed;
 }
 
 PreparationEvents StructureLoop::eventsFor(const Claim& claim, const std::stop_token& stop) const {
@@ -184,9 +149,8 @@ PreparationEvents StructureLoop::eventsFor(const Claim& claim, const std::stop_t
           .is_given_up = [stop] { return stop.stop_requested(); }};
 }
 
-void StructureLoop::serveForm(const FormOrder& order, const std::stop_token& stop) {
-  const uint64_t px_count = pxOf(*order.structure);
-  const int64_t predicted_ns = form_px_cost_.predictNs(px_count);
+void StructureLoop::make(const FormOrder& order, const std::stop_token& stop) {
+  const int64_t predicted_ns = queue_.predictNs(order);
   links_.shares.begin(order.claim, predicted_ns);
   const int64_t begun_ns = wallTimeNs();
   absl::Status status;
@@ -203,7 +167,7 @@ void StructureLoop::serveForm(const FormOrder& order, const std::stop_token& sto
         absl::ResourceExhaustedError(strCat("this display cannot be rendered: ", status.message()));
   }
   const int64_t measured_ns = wallTimeNs() - begun_ns;
-  form_px_cost_.note(px_count, measured_ns);
+  queue_.noteMade(order, measured_ns);
   links_.shares.finish(order.claim, predicted_ns, measured_ns);
   order.then(status);
 }
@@ -254,7 +218,7 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   const int64_t measured_ns = wallTimeNs() - begun_ns;
   stream.px_cost.note(px_count, measured_ns);
   links_.shares.finish(claim, predicted_ns, measured_ns);
-  stream.gate.noteBuilt(demandOf(stream), links_.pipeline.clock.nowNs());
+  stream.turn.noteBuilt(demandOf(stream), links_.pipeline.clock.nowNs());
   takeDefaults(stream, offered, *structure);
   if (movesByItself(*offered.frame)) {
     if (!stream.retimer)

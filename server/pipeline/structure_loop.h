@@ -7,7 +7,6 @@
 #include <functional>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -16,26 +15,17 @@
 #include "pipeline/frame_builder.h"
 #include "pipeline/pipeline_links.h"
 #include "pipeline/stream_table.h"
+#include "schedule/build_queue.h"
 #include "schedule/job_board.h"
 
 namespace viewloom {
-
-// A form that an engine needs of a resident frame, for a picture of this claim. `then` is told on a
-// thread of the loop how it went; not at all when the loop stops.
-struct FormOrder {
-  ResidentPtr structure;
-  size_t engine = 0;
-  Claim claim;
-  std::function<void(const absl::Status& status)> then;
-};
 
 // Takes a frame, unless it is the resident one once more, gives it the form that its first engine
 // takes it in, makes it resident. Meanwhile pictures are made of what is resident already. Of one
 // stream one frame is built at a time.
 //
-// Two threads: one builds anything, the other only what takes no longer than 50 ms. So a
-// stream of huge frames stops no other. Thread-safety: all methods may be called from any thread;
-// stop() from one, once.
+// Two threads, one of each BuildLane; BuildQueue says what they build next. Thread-safety: all
+// methods may be called from any thread; stop() from one, once.
 class StructureLoop {
  public:
   // `on_resident` is called on a thread of the loop, for one frame of a stream at a time; the
@@ -65,30 +55,21 @@ class StructureLoop {
   void stop();
 
  private:
-  enum class Lane : uint8_t { kAny, kShort };  // of the threads
-  enum class Outcome : uint8_t { kServed, kNothing, kNoSlot, kTooLong };
-  // A build that may begin: the next frame of a stream, or a form.
+  // A build that a thread has taken, if any.
   struct Work {
-    Claim claim;
-    PipelineStreamPtr stream = nullptr;  // nullptr = a form
-    FormOrder form;
-  };
-  // A look at the streams, and its outcome.
-  struct Look {
-    Lane lane = Lane::kAny;
-    uint64_t change_count = 0;        // of the bell, before it
-    std::optional<int64_t> until_ns;  // when to look again; empty = when something changes
+    PipelineStreamPtr stream = nullptr;
+    std::optional<FormOrder> form = std::nullopt;
+    std::optional<int64_t> until_ns = std::nullopt;  // as BuildQueue::Next
   };
 
-  void run(Lane lane, const std::stop_token& stop);
-  // Takes the next build, of those that may begin.
-  std::optional<Work> take(Look& look);
-  void addStreams(Look& look, std::vector<Work>& works);
-  void serve(Work work, const Look& look, const std::stop_token& stop);
+  void run(BuildLane lane, const std::stop_token& stop);
+  Work take(const BuildQueue::Look& look);
+  void serve(PipelineStream& stream, const BuildQueue::Look& look, const std::stop_token& stop);
+  void serve(const FormOrder& form, const std::stop_token& stop);
   StreamDemand demandOf(const PipelineStream& stream) const;
 
-  Outcome serveStream(PipelineStream& stream, Lane lane, const std::stop_token& stop);
-  void serveForm(const FormOrder& order, const std::stop_token& stop);
+  BuildOutcome buildNext(PipelineStream& stream, BuildLane lane, const std::stop_token& stop);
+  void make(const FormOrder& order, const std::stop_token& stop);
   bool dropUnchanged(PipelineStream& stream) const;
   bool isInterpolated(const PipelineStream& stream) const;
   std::shared_ptr<FrameForms> takeSlot(PipelineStream& stream, const FramePtr& frame) const;
@@ -102,12 +83,10 @@ class StructureLoop {
   const Links links_;
   const OnResident on_resident_;
   const OnServed on_served_;
-  CostEstimate form_px_cost_;
   std::atomic<uint64_t> last_serial_ = 0;
-  std::mutex mutex_;                                 // guards what follows
-  std::vector<FormOrder> forms_;                     // that wait
-  std::set<const ResidentStructure*> form_in_hand_;  // structures, of which one is prepared
-  std::vector<std::jthread> threads_;                // last: they use all of the above
+  std::mutex mutex_;                   // guards what follows, and the turns of streams
+  BuildQueue queue_;                   // its costs are anybody's
+  std::vector<std::jthread> threads_;  // last: they use all of the above
 };
 
 }  // namespace viewloom

@@ -26,6 +26,10 @@ Claim claimOf(const AtlasJob& job) {
           .display = job.picture_key};
 }
 
+bool asksForNewer(const AtlasJob& job) {
+  return !job.has_asked && !job.is_tracked && !job.tick;
+}
+
 int64_t deadlineNs(const DisplaySpec& spec, int64_t now_ns) {
   const int64_t due_ns = now_ns + kDueNsPerRay * rayCount(spec);
   return isTracked(spec) ? due_ns - kEyesAhead_ns : due_ns;

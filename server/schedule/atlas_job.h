@@ -49,6 +49,10 @@ struct AtlasJob {
 // The job's claim on the engines' time.
 Claim claimOf(const AtlasJob& job);
 
+// Whether the job asks for a newer frame of its stream before it begins, which it does once. Eyes
+// wait for nothing, and ticks show frames as they are.
+bool asksForNewer(const AtlasJob& job);
+
 // Deadline of an atlas that is wanted from now on.
 int64_t deadlineNs(const DisplaySpec& spec, int64_t now_ns);
 

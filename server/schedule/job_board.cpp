@@ -57,6 +57,11 @@ std::optional<AtlasJob> JobBoard::begin(size_t engine, const Claim* first_begun,
                                         const HasRoom& has_room_for_eyes) {
   std::lock_guard lock(mutex_);
   Lane& lane = lanes_[engine];
+  if (!lane.resumed.empty()) {
+    AtlasJob job = std::move(lane.resumed.front());
+    lane.resumed.pop_front();
+    return job;
+  }
   lane.eyes_wait_until_ns.clear();
   HeldBack held_back;
   while (const Claim* const next = lane.jobs.next(shares_, held_back)) {
@@ -101,6 +106,11 @@ std::optional<AtlasJob> JobBoard::putBack(AtlasJob job, size_t engine) {
   return lanes_[engine].jobs.push(std::move(job));
 }
 
+void JobBoard::resume(AtlasJob job, size_t engine) {
+  std::lock_guard lock(mutex_);
+  lanes_[engine].resumed.push_back(std::move(job));
+}
+
 void JobBoard::finish(const std::string& picture_key) {
   std::lock_guard lock(mutex_);
   for (Lane& lane : lanes_) lane.jobs.finish(picture_key);
@@ -125,6 +135,8 @@ std::vector<AtlasJob> JobBoard::clear() {
   std::vector<AtlasJob> jobs;
   for (Lane& lane : lanes_) {
     for (AtlasJob& job : lane.jobs.clear()) jobs.push_back(std::move(job));
+    for (AtlasJob& job : lane.resumed) jobs.push_back(std::move(job));
+    lane.resumed.clear();
   }
   return jobs;
 }

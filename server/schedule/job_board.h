@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -40,10 +41,11 @@ class JobBoard {
   // One waits to begin.
   bool isWaiting(const std::string& picture_key) const;
 
-  // The next job that an engine may begin: one that goes before everything that has begun there
-  // (FairShares). None of a payer whose eyes wait for newer poses: to begin a quilt would take
-  // longer. `first_begun`: what goes first of all that has begun; nullptr = nothing has.
-  // `has_room_for_eyes`: whether a tracked display of these payers may begin.
+  // The next job that an engine may begin: one that was resumed, else one that goes before
+  // everything that has begun there (FairShares). None of a payer whose eyes wait for newer poses:
+  // to begin a quilt would take longer. `first_begun`: what goes first of all that has begun;
+  // nullptr = nothing has. `has_room_for_eyes`: whether a tracked display of these payers may
+  // begin.
   using HasRoom = std::function<bool(const Payers& payers)>;
   std::optional<AtlasJob> begin(size_t engine, const Claim* first_begun,
                                 const HasRoom& has_room_for_eyes);
@@ -56,18 +58,22 @@ class JobBoard {
   // A job that has begun cannot be made yet: it, or a newer one of its picture, begins after
   // finish(). Returns what it replaces, or is replaced by.
   std::optional<AtlasJob> putBack(AtlasJob job, size_t engine);
+  // A job that has begun can be made from now on: it is the next that the engine begins, before all
+  // that have not begun.
+  void resume(AtlasJob job, size_t engine);
   // The next of the picture may begin.
   void finish(const std::string& picture_key);
   // The same as JobQueue::forgetEyes.
   void forgetEyes(const std::string& picture_key);
   // Forgets which engines make pictures that none of these displays shows.
   void keepOnly(const std::vector<ActiveDisplayPtr>& displays);
-  // Forgets the jobs that have not begun.
+  // Forgets the jobs that have not begun, or not gone on.
   std::vector<AtlasJob> clear();
 
  private:
   struct Lane {
     JobQueue jobs;
+    std::deque<AtlasJob> resumed;
     std::map<Payers, int64_t> eyes_wait_until_ns;  // those that wait for poses
   };
 

@@ -174,6 +174,29 @@ TEST_F(JobBoardTest, beginsAJobThatWasPutBackOnceItIsFinished) {
   EXPECT_EQ(begin(kFirst), "quilt");
 }
 
+TEST_F(JobBoardTest, beginsWhatGoesOnBeforeAllThatHasNotBegun) {
+  board_.offer(quilt("quilt", 10));
+  std::optional<AtlasJob> job = beginFirst();
+  ASSERT_TRUE(job);
+  board_.offer(quilt("sooner", 5));
+  const Claim begun{.deadline_ns = 1};
+  EXPECT_EQ(begin(kFirst, &begun), "");
+  board_.resume(*std::move(job), kFirst);
+  EXPECT_EQ(begin(kSecond), "") << "it is made by the engine that it waited for";
+  EXPECT_EQ(begin(kFirst, &begun), "quilt");
+  EXPECT_EQ(begin(kFirst, &begun), "") << "it goes on once";
+  EXPECT_EQ(begin(kFirst), "sooner");
+}
+
+TEST_F(JobBoardTest, handsBackWhatHasNotGoneOn) {
+  board_.offer(quilt("quilt", 10));
+  std::optional<AtlasJob> job = beginFirst();
+  ASSERT_TRUE(job);
+  board_.resume(*std::move(job), kFirst);
+  ASSERT_EQ(board_.clear().size(), 1u);
+  EXPECT_EQ(begin(kFirst), "");
+}
+
 TEST_F(JobBoardTest, handsBackWhatHasNotBegunInAnyLane) {
   board_.offer(quilt("begun", 10));
   begin(kFirst);
