@@ -183,8 +183,8 @@ struct EngineEvents {
   std::function<void(const std::exception& error)> on_failure;  // nothing more will be handed on
 };
 
-// Thread-safety: takes(), plan() and preparer() from any thread; begin(), hasRoomForEyes(),
-// workAhead() and the steps of what was begun from one thread.
+// Thread-safety: takes(), plan(), preparer() and isReadyFor() from any thread; begin(),
+// hasRoomForEyes(), workAhead() and the steps of what was begun from one thread.
 class Engine {
  public:
   virtual ~Engine() = default;
@@ -198,6 +198,9 @@ class Engine {
   // planes, bytes at most. 0 where the engine does not take such frames.
   virtual uint64_t preparedBytes(const FrameFormat& format) const = 0;
   virtual std::unique_ptr<FramePreparer> preparer() = 0;
+  // Whether such a frame can be prepared at once. If not, the engine makes what it lacks, and calls
+  // `then` on any thread when that is there. Most engines lack nothing.
+  virtual bool isReadyFor(const Frame& /*frame*/, std::function<void()> /*then*/) { return true; }
 
   // nullptr where it cannot make such a picture of such a frame, which need not be prepared unless
   // it is the first engine that takes it.

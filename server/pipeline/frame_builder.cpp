@@ -16,6 +16,11 @@ ResidentStructure describe(const Frame& frame) {
   return structure;
 }
 
+bool FrameBuilder::isReadyFor(const Frame& frame, std::function<void()> then) const {
+  const size_t engine = links_.engines.firstFor(frame);
+  return links_.engines.all[engine]->isReadyFor(frame, std::move(then));
+}
+
 std::shared_ptr<FrameForms> FrameBuilder::takeSlot(SlotPool<FrameForms>& slots,
                                                    StreamPreparers& preparers,
                                                    const FramePtr& frame) const {

@@ -2,6 +2,7 @@
 // Gives a frame the forms that engines take it in.
 #pragma once
 
+#include <functional>
 #include <memory>
 
 #include "base/slot_pool.h"
@@ -17,6 +18,9 @@ ResidentStructure describe(const Frame& frame);
 class FrameBuilder {
  public:
   explicit FrameBuilder(const PipelineLinks& links) : links_(links) {}
+
+  // Whether the first engine that takes the frame can prepare it (Engine::isReadyFor).
+  bool isReadyFor(const Frame& frame, std::function<void()> then) const;
 
   // A slot of these for the frame; nullptr while all are lent. Throws EngineOutOfMemory.
   std::shared_ptr<FrameForms> takeSlot(SlotPool<FrameForms>& slots, StreamPreparers& preparers,

@@ -54,7 +54,7 @@ void StructureLoop::run(BuildLane lane, const std::stop_token& stop) {
     const absl::Status status = withinMemory([&] { work = take(look); });
     if (!status.ok()) log(LogLevel::kWarning, "no memory is left to look for frames");
     if (work.stream) {
-      serve(*work.stream, look, stop);
+      serve(work.stream, look, stop);
     } else if (work.form) {
       serve(*work.form, stop);
     } else {
@@ -100,22 +100,23 @@ void StructureLoop::serve(const FormOrder& form, const std::stop_token& stop) {
   links_.bell.ring();
 }
 
-void StructureLoop::serve(PipelineStream& stream, const BuildQueue::Look& look,
+void StructureLoop::serve(const PipelineStreamPtr& stream, const BuildQueue::Look& look,
                           const std::stop_token& stop) {
   const BuildOutcome outcome = buildNext(stream, look.lane, stop);
   if (outcome != BuildOutcome::kTooLong) {
-    stream.is_asked = false;
-    on_served_(stream.name);
+    stream->is_asked = false;
+    on_served_(stream->name);
   }
   {
     std::lock_guard lock(mutex_);
-    stream.turn.giveBack(outcome, look.change_count);
+    stream->turn.giveBack(outcome, look.change_count);
   }
   if (outcome != BuildOutcome::kNoSlot) links_.bell.ring();
 }
 
-BuildOutcome StructureLoop::buildNext(PipelineStream& stream, BuildLane lane,
+BuildOutcome StructureLoop::buildNext(const PipelineStreamPtr& taken, BuildLane lane,
                                       const std::stop_token& stop) {
+  PipelineStream& stream = *taken;
   if (auto newest = stream.inbox.take()) {
     const auto replaced = stream.frames.offer(*std::move(newest));
     if (replaced) links_.pipeline.metrics.replaced[HandOver::kStructure].add();
@@ -124,6 +125,7 @@ BuildOutcome StructureLoop::buildNext(PipelineStream& stream, BuildLane lane,
   const OfferedFrame* const next = stream.frames.next();
   if (next == nullptr) return BuildOutcome::kNothing;
   if (!takes(lane, stream.px_cost.predictNs(pxOf(*next->frame)))) return BuildOutcome::kTooLong;
+  if (!isReadyFor(*next->frame, taken)) return BuildOutcome::kNotReady;
   std::shared_ptr<FrameForms> slot;
   const absl::Status has_slot = withinMemory([&] { slot = takeSlot(stream, next->frame); });
   if (has_slot.ok() && !slot) return BuildOutcome::kNoSlot;
@@ -137,6 +139,27 @@ BuildOutcome StructureLoop::buildNext(PipelineStream& stream, BuildLane lane,
   log(LogLevel::kWarning, "stream ", stream.name, ": a frame is refused: ", status.message());
   ticket->noteRefused(std::string(status.message()));
   return BuildOutcome::kServed;
+}
+
+bool StructureLoop::isReadyFor(const Frame& frame, const PipelineStreamPtr& stream) {
+  {
+    std::lock_guard lock(mutex_);
+    stream->turn.awaitReady();  // before the engine may call back
+  }
+  const auto note_ready = [this, stream] {
+    std::lock_guard lock(mutex_);
+    stream->turn.noteReady();
+  };
+  bool is_ready = true;  // where there is no memory to ask: then the build says so
+  const absl::Status status = withinMemory([&] {
+    is_ready = links_.builder.isReadyFor(frame, [this, note_ready] {
+      note_ready();
+      links_.bell.ring();
+    });
+  });
+  if (is_ready) note_ready();
+  if (!status.ok()) log(LogLevel::kWarning, "stream ", stream->name, ": ", status.message());
+  return is_ready;
 }
 
 PreparationEvents StructureLoop::eventsFor(const Claim& claim, const std::stop_token& stop) const {

@@ -64,11 +64,15 @@ class StructureLoop {
 
   void run(BuildLane lane, const std::stop_token& stop);
   Work take(const BuildQueue::Look& look);
-  void serve(PipelineStream& stream, const BuildQueue::Look& look, const std::stop_token& stop);
+  void serve(const PipelineStreamPtr& stream, const BuildQueue::Look& look,
+             const std::stop_token& stop);
   void serve(const FormOrder& form, const std::stop_token& stop);
   StreamDemand demandOf(const PipelineStream& stream) const;
 
-  BuildOutcome buildNext(PipelineStream& stream, BuildLane lane, const std::stop_token& stop);
+  BuildOutcome buildNext(const PipelineStreamPtr& stream, BuildLane lane,
+                         const std::stop_token& stop);
+  // Whether the frame can be prepared at once. Else the stream is left until it can.
+  bool isReadyFor(const Frame& frame, const PipelineStreamPtr& stream);
   void make(const FormOrder& order, const std::stop_token& stop);
   bool dropUnchanged(PipelineStream& stream) const;
   bool isInterpolated(const PipelineStream& stream) const;

@@ -116,11 +116,49 @@ TEST_F(PipelineCompileTest, picturesAreThoseOfKernelsThatTheRecordingThreadCompi
   EXPECT_GT(compiler_.askedCount(), 0);
 }
 
-TEST_F(PipelineCompileTest, aServerEndsWhilePicturesWaitForTheirKernels) {
+TEST_F(PipelineCompileTest, aFrameThatWaitsForItsKernelsKeepsNoOtherStreamFromItsFrames) {
+  Server server(device(), ownThreads());
+  const DisplaySpec spec = smallQuilt({128, 80});
+  const Viewer quick = watch(server, spec);
+  const Viewer slow = watch(server, spec, {}, "layered");
+  const FramePtr first = syntheticFrame(1);
+  server.offer(first);
+  ASSERT_THAT(quick.subscriber->waitForAtlases(1), SizeIs(1));
+  compiler_.hold();
+  // Kernels of three layers.
+  const FramePtr layered = syntheticFrame(1, {160, 90}, 3);
+  server.offer(layered, "layered");
+  compiler_.waitUntilAsked();
+  for (uint64_t number = 2; number <= 4; ++number) {
+    server.offer(movedFrame(*first, number));
+    ASSERT_THAT(quick.subscriber->waitForAtlases(number), SizeIs(number));
+  }
+  server.offer(movedFrame(*layered, 2), "layered");
+  EXPECT_THAT(slow.subscriber->waitForAtlases(0), IsEmpty());
+  compiler_.release();
+  const std::vector<AtlasPtr> late = slow.subscriber->waitForAtlases(1);
+  ASSERT_THAT(late, Not(IsEmpty()));
+  EXPECT_EQ(late.front()->frame_number, 2u) << "the newest frame of those that waited";
+}
+
+TEST_F(PipelineCompileTest, aServerEndsWhileFramesWaitForTheirKernels) {
   compiler_.hold();
   std::optional<Server> server(std::in_place, device(), ownThreads());
   const Viewer viewer = watch(*server, lensQuilt());
   server->offer(syntheticFrame(1));
+  compiler_.waitUntilAsked();
+  std::jthread releaser([this] { compiler_.release(); });
+  server->pipeline.drain();
+  EXPECT_THAT(server->reports.waitForReports(1), SizeIs(1));
+}
+
+TEST_F(PipelineCompileTest, aServerEndsWhilePicturesWaitForTheirKernels) {
+  std::optional<Server> server(std::in_place, device(), ownThreads());
+  const Viewer quick = watch(*server, smallQuilt({128, 80}));
+  server->offer(syntheticFrame(1));
+  ASSERT_THAT(quick.subscriber->waitForAtlases(1), SizeIs(1));
+  compiler_.hold();
+  const Viewer viewer = watch(*server, lensQuilt());
   compiler_.waitUntilAsked();
   std::jthread releaser([this] { compiler_.release(); });
   server->pipeline.drain();

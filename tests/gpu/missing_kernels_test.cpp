@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which kernels a picture needs is known before anything of it is recorded: exactly those that its
-// recording asks for.
+// recording asks for. So are those that build a frame.
 #include <gtest/gtest.h>
 
 #include <cstring>
@@ -107,6 +107,31 @@ class MissingKernelsTest : public GpuTest {
     }
   }
 
+  // Asks for a build of this frame, by builders that have built none.
+  void expectExactBuild(const FramePtr& frame) {
+    FrameStructure structure(device(), shapesOf(*frame));
+    structure.upload(*frame);
+    CommandRecorder recorder(device());  // recorded, and never submitted
+    const StructureBuilder told(device());
+    const uint64_t before = device().kernelCount();
+    MissingKernels missing;
+    told.addMissing(*frame, missing);
+    for (const auto& [place, compile] : missing) compile();
+    const uint64_t told_count = compiledSince(before);
+    EXPECT_GT(told_count, 0u);
+    MissingKernels left;
+    told.addMissing(*frame, left);
+    EXPECT_TRUE(left.empty());
+    structure.recordBuild(recorder.begin(), told);
+    EXPECT_EQ(compiledSince(before), told_count)
+        << "a build needed kernels that it had not told of";
+    const StructureBuilder surprised(device());
+    const uint64_t before_surprise = device().kernelCount();
+    structure.recordBuild(CommandRecorder(device()).begin(), surprised);
+    EXPECT_EQ(compiledSince(before_surprise), told_count)
+        << "kernels that nobody needs were told of";
+  }
+
  private:
   static TraceJob jobOf(const Frame& frame, const FrameStructure& structure,
                         const DisplaySpec& wanted) {
@@ -151,6 +176,26 @@ class MissingKernelsTest : public GpuTest {
     }
   };
 };
+
+TEST_F(MissingKernelsTest, ofBuilds) {
+  for (uint32_t layer_count = 1; layer_count <= 2; ++layer_count) {
+    expectExactBuild(test::syntheticFrame(1, kSource_px, layer_count));
+  }
+  expectExactBuild(test::syntheticFrameFrom(1, {0, 0.2}, kSource_px));
+  expectExactBuild(test::syntheticCubeFrame(1, 32));
+}
+
+TEST_F(MissingKernelsTest, ofBuildsThatAreLikely) {
+  const StructureBuilder builder(device());
+  for (const MissingKernels& kernels : builder.likelyKernels()) {
+    for (const auto& [place, compile] : kernels) compile();
+  }
+  MissingKernels missing;
+  for (uint32_t layer_count = 1; layer_count <= 2; ++layer_count) {
+    builder.addMissing(*test::syntheticFrame(1, kSource_px, layer_count), missing);
+  }
+  EXPECT_TRUE(missing.empty());
+}
 
 TEST_F(MissingKernelsTest, ofOneSource) {
   expectExact(mirroring(*test::syntheticFrame(1, kSource_px, 2)), Kept::kForEachDisplay);

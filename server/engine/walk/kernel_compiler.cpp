@@ -32,17 +32,24 @@ void KernelCompiler::compile(MissingKernels kernels, std::function<void()> then)
   added_.notify_all();
 }
 
+void KernelCompiler::compileAhead(MissingKernels kernels) {
+  std::lock_guard lock(mutex_);
+  for (auto& [place, kernel] : kernels) ahead_.push_back({std::move(kernel), nullptr});
+  added_.notify_all();
+}
+
 void KernelCompiler::drain() {
   std::unique_lock lock(mutex_);
   waiting_.clear();
+  ahead_.clear();
   done_.wait(lock, [this] { return begun_count_ == 0; });
 }
 
 void KernelCompiler::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  while (added_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
-    const Kernel kernel = std::move(waiting_.front());
-    waiting_.pop_front();
+  while (added_.wait(lock, stop, [this] { return !next().empty(); })) {
+    const Kernel kernel = std::move(next().front());
+    next().pop_front();
     ++begun_count_;
     lock.unlock();
     compileOne(kernel);
@@ -66,6 +73,7 @@ void KernelCompiler::compileUnlessOutOfMemory(const Kernel& kernel) {
 void KernelCompiler::compileOne(const Kernel& kernel) {
   try {
     compileUnlessOutOfMemory(kernel);
+    if (kernel.order == nullptr) return;
     bool is_last = false;
     {
       std::lock_guard lock(mutex_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles kernels on threads of its own, for pictures that wait for them.
+// Compiles kernels on threads of its own, for frames and pictures that wait for them.
 #pragma once
 
 #include <condition_variable>
@@ -28,6 +28,8 @@ class KernelCompiler {
 
   // `then` is called on one of its threads once all of these are compiled.
   void compile(MissingKernels kernels, std::function<void()> then);
+  // Compiles these while nobody waits for others, in the order of the calls.
+  void compileAhead(MissingKernels kernels);
   // Forgets kernels that have not begun, and waits for the others.
   void drain();
 
@@ -39,10 +41,11 @@ class KernelCompiler {
   };
   struct Kernel {
     std::function<void()> compile;
-    std::shared_ptr<Order> order;
+    std::shared_ptr<Order> order;  // nullptr = nobody waits
   };
 
   void run(const std::stop_token& stop);
+  std::deque<Kernel>& next() { return waiting_.empty() ? ahead_ : waiting_; }
   void compileUnlessOutOfMemory(const Kernel& kernel);
   void compileOne(const Kernel& kernel);
 
@@ -52,6 +55,7 @@ class KernelCompiler {
   std::condition_variable_any added_;
   std::condition_variable done_;
   std::deque<Kernel> waiting_;
+  std::deque<Kernel> ahead_;
   uint32_t begun_count_ = 0;
   std::vector<std::jthread> threads_;  // last: they use all of the above
 };

@@ -60,7 +60,11 @@ WalkEngine::WalkEngine(const Device& device, const WalkOptions& options)
 
 void WalkEngine::connect(EngineEvents events) {
   events_ = std::move(events);
-  if (compiler_ && warm_up_ && !warmer_.joinable()) startWarmer();
+  if (!compiler_ || !warm_up_ || warmer_.joinable()) return;
+  for (MissingKernels& kernels : works_.builder.likelyKernels()) {
+    compiler_->compileAhead(std::move(kernels));
+  }
+  startWarmer();
 }
 
 void WalkEngine::startWarmer() {
@@ -77,6 +81,15 @@ void WalkEngine::startWarmer() {
 
 std::unique_ptr<FramePreparer> WalkEngine::preparer() {
   return std::make_unique<WalkedFramePreparer>(works_);
+}
+
+bool WalkEngine::isReadyFor(const Frame& frame, std::function<void()> then) {
+  if (!compiler_) return true;
+  MissingKernels missing;
+  works_.builder.addMissing(frame, missing);
+  if (missing.empty()) return true;
+  compiler_->compile(std::move(missing), std::move(then));
+  return false;
 }
 
 PlanPtr WalkEngine::plan(const PicturePtr& picture, const PreparedFrame& frame) const {

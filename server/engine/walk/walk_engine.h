@@ -23,7 +23,8 @@ enum class CompilePlace : uint8_t {
   // By the thread that records them. Software devices compile a kernel when they come to its first
   // dispatch, so no other thread could do it beforehand.
   kRecordingThread,
-  // By threads of their own: a picture whose kernels are missing waits for them, and no other.
+  // By threads of their own: a frame or a picture whose kernels are missing waits for them, and no
+  // other.
   kOwnThreads
 };
 
@@ -50,6 +51,7 @@ class WalkEngine final : public Engine {
     return WalkedFrame::bytesFor(works_.device, format);
   }
   std::unique_ptr<FramePreparer> preparer() override;
+  bool isReadyFor(const Frame& frame, std::function<void()> then) override;
   PlanPtr plan(const PicturePtr& picture, const PreparedFrame& frame) const override;
   bool isReady(const AtlasOrder& order, std::function<void()> then) override;
   bool hasRoomForEyes(const std::string&) override { return true; }

@@ -6,6 +6,7 @@
 
 #include "gpu/commands.h"
 #include "shared/cube_abi.h"
+#include "structure/structure_variants.h"
 #include "structure/timed_stage.h"
 
 namespace viewloom {
@@ -50,25 +51,6 @@ void recordSurface(CutRecording& recording, const StructureSlot& slot) {
                   .size_bytes = staged.size_bytes});
     }
   }
-}
-
-StructureVariant variantOf(const StructureSlot& slot) {
-  return {.reads_by_address = slot.readsByAddress(),
-          .writes_by_address = slot.writesByAddress(),
-          .layer_count = slot.shape().layerCount()};
-}
-
-PrepareVariant preparationOf(const StructureSlot& slot) {
-  const std::span planes(slot.depthPlanes().planes, slot.shape().layerCount());
-  const uint32_t first_type = planes.front().sample_type;
-  const bool is_uniform = std::all_of(planes.begin(), planes.end(), [&](const auto& plane) {
-    return plane.sample_type == first_type;
-  });
-  return {.structure = variantOf(slot),
-          .sample_type = is_uniform ? first_type : abi::kDepthSampleMixed,
-          .has_ray_distance = std::any_of(planes.begin(), planes.end(), [](const auto& plane) {
-            return plane.ray_distance != 0;
-          })};
 }
 
 // One build, stage after stage.
@@ -189,10 +171,31 @@ void Recording::buildLevels() {
 }  // namespace
 
 StructureBuilder::StructureBuilder(const Device& device)
-    : convert_color_(makeConvertColor(device)),
+    : device_(device),
+      convert_color_(makeConvertColor(device)),
       passes_(device, makeStructurePasses),
       preparations_(device, makePrepareColumns),
       apron_passes_(device, makeApronPasses) {}
+
+void StructureBuilder::addMissing(const PrepareVariant& variant, MissingKernels& missing) const {
+  passes_.addMissing(variant.structure, missing);
+  preparations_.addMissing(variant, missing);
+}
+
+void StructureBuilder::addMissing(const Frame& frame, MissingKernels& missing) const {
+  for (const SourcePart& part : partsOf(frame.format)) {
+    addMissing(preparationOf(device_, frame, part), missing);
+    if (part.face) apron_passes_.addMissing({}, missing);
+  }
+}
+
+std::vector<MissingKernels> StructureBuilder::likelyKernels() const {
+  std::vector<MissingKernels> kernels;
+  for (const PrepareVariant& variant : likelyPreparations()) {
+    addMissing(variant, kernels.emplace_back());
+  }
+  return kernels;
+}
 
 void StructureBuilder::recordColumns(CutRecording& cuts, const StructureSlot& slot,
                                      GpuTimer* timer) const {
