@@ -120,20 +120,20 @@ TEST_F(PipelineCompileTest, aFrameThatWaitsForItsKernelsKeepsNoOtherStreamFromIt
   Server server(device(), ownThreads());
   const DisplaySpec spec = smallQuilt({128, 80});
   const Viewer quick = watch(server, spec);
-  const Viewer slow = watch(server, spec, {}, "layered");
+  const Viewer slow = watch(server, spec, {}, "flat");
   const FramePtr first = syntheticFrame(1);
   server.offer(first);
   ASSERT_THAT(quick.subscriber->waitForAtlases(1), SizeIs(1));
   compiler_.hold();
-  // Kernels of three layers.
-  const FramePtr layered = syntheticFrame(1, {160, 90}, 3);
-  server.offer(layered, "layered");
+  // Kernels of one layer.
+  const FramePtr flat = syntheticFrame(1, {160, 90}, 1);
+  server.offer(flat, "flat");
   compiler_.waitUntilAsked();
   for (uint64_t number = 2; number <= 4; ++number) {
     server.offer(movedFrame(*first, number));
     ASSERT_THAT(quick.subscriber->waitForAtlases(number), SizeIs(number));
   }
-  server.offer(movedFrame(*layered, 2), "layered");
+  server.offer(movedFrame(*flat, 2), "flat");
   EXPECT_THAT(slow.subscriber->waitForAtlases(0), IsEmpty());
   compiler_.release();
   const std::vector<AtlasPtr> late = slow.subscriber->waitForAtlases(1);
