@@ -12,16 +12,16 @@ namespace {
 
 using testing::ElementsAre;
 
-struct Run {
+struct FakeRun {
   std::string name;
   Claim claim;
 };
-using RunPtr = std::shared_ptr<Run>;
+using RunPtr = std::shared_ptr<FakeRun>;
 
 RunPtr runOf(const std::string& host, int64_t deadline_ns, bool is_tracked = false) {
-  return std::make_shared<Run>(
-      Run{host,
-          {.deadline_ns = deadline_ns, .is_tracked = is_tracked, .payers = {Payer::ofHost(host)}}});
+  return std::make_shared<FakeRun>(FakeRun{
+      host,
+      {.deadline_ns = deadline_ns, .is_tracked = is_tracked, .payers = {Payer::ofHost(host)}}});
 }
 
 class BegunWorkTest : public testing::Test {
@@ -37,7 +37,7 @@ class BegunWorkTest : public testing::Test {
   }
 
   FairShares shares_;
-  BegunWork<Run> begun_{shares_};
+  BegunWork<FakeRun> begun_{shares_};
 };
 
 TEST_F(BegunWorkTest, makesThePartOfTheOneThatGoesFirst) {
