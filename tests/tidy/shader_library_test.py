@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Each file of the shader library stands by itself: it compiles when a kernel includes nothing else.
+"""Each file of the shader library stands by itself: it compiles if a kernel includes nothing else.
 
     shader_library_test.py GLSLANG_VALIDATOR
 
