@@ -10,8 +10,10 @@ namespace viewloom::bench {
 namespace {
 
 constexpr size_t kRgbBytes = 3;
-// Between looks at whether an atlas has left; one of 25 MB takes a hundred times as long.
-constexpr std::chrono::microseconds kLook(200);
+// Between looks at whether an atlas has left. One of 25 MB takes several times as long to leave.
+constexpr std::chrono::milliseconds kLook(2);
+// After that, an atlas that has not left is lost: its viewer left with it, and another one watches.
+constexpr std::chrono::milliseconds kLost(500);
 
 std::vector<EncodedBand> bandsOf(const AtlasLayout& layout, const EncodingSpec& encoding) {
   std::vector<EncodedBand> bands;
@@ -35,15 +37,17 @@ EndlessAtlases::EndlessAtlases() : thread_([this](const std::stop_token& stop) {
 void EndlessAtlases::run(const std::stop_token& stop) {
   const Counter& sent = server_.metrics().atlases_sent[Transport::kGrpc];
   const Counter& skipped = server_.metrics().replaced[HandOver::kGrpc];
-  uint64_t display_id = 0;
   double published_count = 0;  // by what follows, all of them counted
+  double seen_count = 0;       // of those that were gone at the last look
+  std::chrono::steady_clock::time_point since = {};
   for (; !stop.stop_requested(); std::this_thread::sleep_for(kLook)) {
     const std::vector<ActiveDisplayPtr> displays = server_.broadcaster().displays("");
     if (displays.empty()) continue;
     const ActiveDisplay& display = *displays.front();
     const double gone_count = sent.value() + skipped.value();
-    // A viewer that left may not have got its last atlas.
-    if (std::exchange(display_id, display.id) != display.id) published_count = gone_count;
+    const auto now = std::chrono::steady_clock::now();
+    if (std::exchange(seen_count, gone_count) != gone_count) since = now;
+    if (now - since > kLost) published_count = gone_count;
     // One leaves and one waits, so that the call is never without an atlas.
     if (gone_count + 1 < published_count) continue;
     publish(display);
