@@ -204,6 +204,8 @@ Metrics::Metrics()
                               "Memory that waits for reuse now.")),
       memory_resident_bytes(gauge(store_->registry, "viewloom_memory_resident_bytes",
                                   "Memory of the process, as the system counts it.")),
+      memory_heap_bytes(gauge(store_->registry, "viewloom_memory_heap_bytes",
+                              "Memory that the C library has lent to the process now.")),
       memory_reserved_bytes(gauges<MemoryUse>(store_->registry, "viewloom_memory_reserved_bytes",
                                               "Memory that is reserved now, by what for.", "use",
                                               kMemoryUses)),

@@ -142,6 +142,7 @@ class Metrics {
   Gauge memory_budget_bytes;                                 // memory.budget
   Gauge memory_idle_bytes;                                   // wait for reuse now
   Gauge memory_resident_bytes;                               // of the process, as the system counts
+  Gauge memory_heap_bytes;                                   // lent by the C library now
   Labelled<MemoryUse, Gauge> memory_reserved_bytes;          // {use}; now
   Labelled<MemoryUse, Counter> memory_refused;               // {use}; no room in the budget
   Labelled<Stage, Histogram> stage;                          // viewloom_stage_seconds{stage}

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/heap.h"
 #include "base/nearest_name.h"
 #include "base/printable.h"
 #include "base/str_cat.h"
@@ -46,6 +47,7 @@ HttpReply metricsReply(const WebContext& context) {
   for (const StreamEntry& entry : context.streams.list()) live_count += entry.live;
   context.metrics.streams_live.set(static_cast<double>(live_count));
   context.metrics.displays.set(static_cast<double>(context.broadcaster.displays("").size()));
+  context.metrics.memory_heap_bytes.set(static_cast<double>(lentHeapBytes()));
   HttpReply reply;
   reply.type = "text/plain; version=0.0.4; charset=utf-8";
   reply.text = context.metrics.text();

@@ -25,4 +25,13 @@ void returnFreedMemory() {
 #endif
 }
 
+uint64_t lentHeapBytes() {
+#ifdef __GLIBC__
+  const struct mallinfo2 heap = mallinfo2();
+  return heap.uordblks + heap.hblkhd;
+#else
+  return 0;
+#endif
+}
+
 }  // namespace viewloom

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keeps freed memory in the process, and gives it back.
+// The heap: what is lent of it, and when freed memory goes back to the system.
 #pragma once
+
+#include <cstdint>
 
 namespace viewloom {
 
@@ -13,5 +15,10 @@ void keepFreedMemory();
 // Gives all freed memory back to the system. Takes milliseconds, so call it after large releases
 // only. Does nothing with other C libraries. Thread-safety: any thread.
 void returnFreedMemory();
+
+// Bytes that the C library has lent to the whole process, blocks that are mapped one by one
+// included. Blocks that a thread keeps for its own next use count. 0 with other C libraries, and
+// under sanitizers. Walks through all free blocks, so call it seldom. Thread-safety: any thread.
+uint64_t lentHeapBytes();
 
 }  // namespace viewloom
