@@ -84,11 +84,12 @@ class Address:
 @dataclass
 class Server:
     """viewloomd on free ports. descriptor_max: the limit of its open files. warms_up: it compiles
-    kernels after its start."""
+    kernels after its start. environment: variables beside those of this process."""
     program: str
     descriptor_max: int = 1024
     settings: tuple = ()
     warms_up: bool = False
+    environment: dict = field(default_factory=dict)
     process: subprocess.Popen = field(init=False)
     address: Address = field(init=False)
 
@@ -98,9 +99,10 @@ class Server:
             [self.program, "serve", "--grpc.address", "127.0.0.1:0", "--http.address",
              "127.0.0.1:0", "--pipeline.warm_up", str(self.warms_up).lower(), *self.settings],
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
+            env={**os.environ, **self.environment},
             preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, limit))
         line = self.process.stdout.readline()
-        ports = re.search(r"grpc=127.0.0.1:(\d+) http=http://127.0.0.1:(\d+)/", line)
+        ports = re.search(r"grpc=\S+:(\d+) http=\S+:(\d+)/", line)
         self.address = Address(*map(int, ports.groups()))
         return self
 

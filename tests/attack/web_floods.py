@@ -57,11 +57,11 @@ def text_frame(text):
     return head + bytes(4) + text
 
 
-def open_socket(address):
+def open_socket(address, socket_target=SOCKET_TARGET, **headers):
     """A WebSocket whose server need not be read, or None."""
-    one = socket.create_connection(("127.0.0.1", address.http_port), 5)
-    lines = {"Host": f"127.0.0.1:{address.http_port}", **upgrade_headers()}
-    request = f"GET {SOCKET_TARGET} HTTP/1.1\r\n"
+    one = address.connect(address.http_port, ("http/1.1",))
+    lines = {"Host": f"127.0.0.1:{address.http_port}", **upgrade_headers(**headers)}
+    request = f"GET {socket_target} HTTP/1.1\r\n"
     request += "".join(f"{name}: {value}\r\n" for name, value in lines.items())
     one.sendall((request + "\r\n").encode())
     if b" 101 " in one.recv(1024):

@@ -96,6 +96,23 @@ def overload():
                 build("release", "viewloomd", "viewloom_python"))
 
 
+def lasting():
+    """Each form is a server of its own: its heap cannot go on after a stop."""
+    paths = "build/release/client/python:tests/attack:tests/atlases"
+    words = ["env", f"PYTHONPATH={paths}", sys.executable, "tests/soak/main.py",
+             "build/release/server/viewloomd"]
+    library = os.path.abspath("build/release/tests/soak/libviewloom_planted_fault.so")
+    return Part("soak", "what a server loses while clients come and go; planted losses are found",
+                "minutes",
+                lambda: [Step("10 minutes", words, 10),
+                         Step("10 minutes that lose 16 bytes a connection",
+                              [*words, "--plant", library, "heap:16"], 10),
+                         Step("an hour", [*words, "--hour"], 60),
+                         Step("an hour with encryption and tokens",
+                              [*words, "--hour", "--protected"], 60)],
+                build("release", "viewloomd", "viewloom_python", "viewloom_planted_fault"))
+
+
 def compare():
     """Builds the commit VIEWLOOM_COMPARE_WITH beside this one."""
     before = os.path.abspath("build/before")
@@ -133,6 +150,7 @@ PARTS = [
          build("lint", "generated_headers")),
     attack(),
     overload(),
+    lasting(),
     compare(),
     Part("bare-system", "packages, build and first picture in a bare Debian 12 (as root)", "runs",
          lambda: [Step("debootstrap to picture", ["tests/full/bare_system.sh"])]),

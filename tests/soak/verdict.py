@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What a soak has shown."""
+
+from dataclasses import dataclass, field
+
+from trend import trend_of
+
+BYTES_A_CYCLE = 4
+FAILED_SHARE = 0.02
+
+
+@dataclass
+class Series:
+    """Readings at rest, and how many cycles went before each."""
+    cycles: list = field(default_factory=list)
+    readings: list = field(default_factory=list)
+
+    def add(self, cycles, reading):
+        self.cycles.append(cycles)
+        self.readings.append(reading)
+
+    def trend(self):
+        return trend_of(self.cycles, [one.heap for one in self.readings])
+
+
+@dataclass
+class Verdict:
+    lines: list = field(default_factory=list)
+    leaks: list = field(default_factory=list)    # what is lost for certain
+    unproven: list = field(default_factory=list)  # what the soak was too short for
+
+    def text(self):
+        found = [f"LEAK: {leak}" for leak in self.leaks] + [f"not shown: {one}"
+                                                            for one in self.unproven]
+        return "\n".join([*self.lines, *(found or ["ok"])])
+
+
+def judged(series, cycles, failures):
+    """cycles: all. failures: by words, of clients."""
+    verdict = Verdict()
+    judge_heap(series.trend(), len(series.readings), verdict)
+    begin, end = series.readings[0], series.readings[-1]
+    for name in ("descriptors", "threads"):
+        before, after = getattr(begin, name), getattr(end, name)
+        verdict.lines.append(f"{name}: {before} at the begin, {after} at the end")
+        if after > before:
+            verdict.leaks.append(f"{after - before} {name}")
+    failed = sum(failures.values())
+    verdict.lines.append(f"clients: {cycles:,}, of which {failed:,} failed")
+    verdict.lines += [f"  {count} x {words}" for words, count in failures.most_common(8)]
+    if failed > FAILED_SHARE * cycles:
+        verdict.unproven.append(f"{failed:,} of {cycles:,} clients failed")
+    return verdict
+
+
+def judge_heap(trend, count, verdict):
+    if trend is None:
+        verdict.unproven.append(f"the heap: {count} readings are too few")
+        return
+    verdict.lines.append(f"heap: {trend.text()}, from {count} readings; at most {BYTES_A_CYCLE}")
+    if trend.low > BYTES_A_CYCLE:
+        verdict.leaks.append(f"heap: {trend.text()}")
+    elif trend.high > BYTES_A_CYCLE:
+        verdict.unproven.append(f"heap: the interval reaches beyond {BYTES_A_CYCLE} bytes a cycle")
