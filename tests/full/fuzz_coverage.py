@@ -15,7 +15,10 @@ import sys
 LEAST_SHARE = 0.9
 # Files that read or check what comes from elsewhere.
 READERS = re.compile(r"""
-    /server/core/calibration/calibration(_keys)?\.cpp
+    /server/access/(bearer|json_object|jwt|key_set|rights|rights_json)\.cpp
+  | /server/access/(signed_link|token_list|utc_time)\.cpp
+  | /server/core/calibration/calibration(_keys)?\.cpp
+  | /server/core/certificates/(authorities|certificate|certified_key|fingerprint|pem_file)\.cpp
   | /server/core/display/(fields|display_spec|effects|quilt|stereo|integral|lenticular|rgbd)\.cpp
   | /server/core/frame/(depth|limits|camera)\.cpp
   | /server/core/messages/(display_from_proto|json_fields|message_from_json|source_from_proto)\.cpp

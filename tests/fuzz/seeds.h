@@ -53,6 +53,12 @@ SeedBytes manifestSeeds();
 SeedBytes cameraListSeeds();
 SeedBytes eyeLineSeeds();
 
+SeedBytes tokensSeeds();
+SeedBytes jwtSeeds();
+SeedBytes keySetSeeds();
+SeedBytes linkSeeds();
+SeedBytes certificateSeeds();
+
 SeedBytes pictureSeeds();
 SeedBytes metadataSeeds();
 SeedBytes exrSeeds();

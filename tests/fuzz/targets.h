@@ -34,6 +34,14 @@ bool fuzzCalibration(FuzzBytes bytes);  // calibration of a panel
 bool fuzzViewer(FuzzBytes bytes);       // messages of /ws, one a line
 bool fuzzHttp(FuzzBytes bytes);         // lines: target, Host, Origin
 
+// Identities, and the files that decide about access.
+bool fuzzTokens(FuzzBytes bytes);  // the token file
+// Lines: header and claims, which are signed here; a token that nobody signed.
+bool fuzzJwt(FuzzBytes bytes);
+bool fuzzKeySet(FuzzBytes bytes);       // JWKS
+bool fuzzLink(FuzzBytes bytes);         // signature of a link
+bool fuzzCertificate(FuzzBytes bytes);  // PEM with certificates and a key
+
 // Files of operators and users.
 bool fuzzSettings(FuzzBytes bytes);    // viewloomd.toml
 bool fuzzRecording(FuzzBytes bytes);   // of frames or atlases
