@@ -22,7 +22,7 @@ SeedBytes tokensSeeds() {
   return textSeeds(
       {R"({"id":"camera-1",)" + sha256 +
            R"(,"roles":["publish","watch"],"streams":["room.*"],"expires":"2027-01-31T12:00:00Z",)"
-           R"("limits":{"streams":2,"connections":4,"pixels_per_s":1e9},"note":"left \u0077all"})",
+           R"("limits":{"streams":2,"connections":4,"pixels_per_s":1000000000},"note":"left \u0077all"})",
        "# ours\n\n{\"id\":\"wall\"," + sha256 + R"(,"roles":"operate","streams":"*"})" +
            "\r\n{\"id\":\"b\"," + sha256 +
            R"(,"roles":["watch"],"streams":["a","b"],"expires":"2027-01-31"})"});
@@ -47,7 +47,7 @@ SeedBytes jwtSeeds() {
 // Keys of RFC 8037 and RFC 7517.
 SeedBytes keySetSeeds() {
   const std::string ed25519 = R"({"kty":"OKP","crv":"Ed25519","kid":"ed",)"
-                              R"("x":"11qYAYKxCrfVS_7TyWQHOg7hcvPapiMlrwaaPJHURo"})";
+                              R"("x":"11qYAYKxCrfVS_7TyWQHOg7hcvPapiMlrwIaaPcHURo"})";
   const std::string p256 = R"({"kty":"EC","crv":"P-256","use":"sig","alg":"ES256",)"
                            R"("x":"MKBCTNIcKUSDii11ySs3526iDZ8AiTo7Tu6KPAqv7D4",)"
                            R"("y":"4Etl6SRW2YiLUrN5vfvVHuhp7x8PxltmWWlbbM4IFyM"})";

@@ -37,7 +37,7 @@ def main():
     if words.plant[0]:
         print("the planted fault was found" if verdict.leaks else "the planted fault was NOT found")
         return 0 if verdict.leaks else 1
-    return 1 if verdict.leaks or (plan.is_long and verdict.unproven) else 0
+    return 1 if verdict.leaks or verdict.unproven else 0
 
 
 if __name__ == "__main__":

@@ -15,18 +15,21 @@ import numpy as np
 
 import http2
 import soak
+from faults import bad_display
 from main import planted
 from place import served
 from readings import Gauges, Reading, sums_of
 from trend import trend_of
 from verdict import Series, judged
+from visits import SWEPT
 
 PROGRAM, LIBRARY = sys.argv.pop(1), sys.argv.pop(1)
 NOISE_BYTES = 20_000
 CYCLES, SAMPLES = 12_000, 52  # of ten minutes
-# A few seconds of one kind of client show what is lost with each connection.
-FEW = dataclasses.replace(soak.SUITE, seconds=6, round_s=0.3, workers=2,
-                          actions=(soak.FAULTS[-1],))
+# A few seconds of one kind of client show what is lost with each connection, before the server has
+# no files left.
+FEW = dataclasses.replace(soak.SUITE, seconds=0, round_s=0.1, workers=1, actions=(bad_display,),
+                          kinds=SWEPT[:1], most_bytes=32768)
 LARGE_LOSS = "heap:65536"
 
 
@@ -67,7 +70,7 @@ class Trends(unittest.TestCase):
 
 class Verdicts(unittest.TestCase):
     def found(self, series, failed=0):
-        return judged(series, CYCLES, collections.Counter({"planted": failed}))
+        return judged(series, CYCLES, collections.Counter({"planted": failed}), 4)
 
     def test_a_server_that_loses_nothing_is_ok(self):
         verdict = self.found(series_of(0.0, noise=500))

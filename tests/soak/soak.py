@@ -11,6 +11,7 @@ from faults import FAULTS
 from pages import PAGES
 from place import Protection, served
 from readings import Gauges
+from trend import SAMPLES_LEAST
 from verdict import Series, judged
 from visits import SWEPT, SWEPT_VISITS, VISITS, Visit, show_all
 
@@ -21,7 +22,7 @@ SETTLED_S = 0.5
 
 @dataclass(frozen=True)
 class Plan:
-    """seconds: of the rounds that count. round_s: how long clients come and go before a reading.
+    """seconds: of the rounds that count, at least eight. round_s: how long clients come and go before a reading.
     idle_s: patience for buffers that wait for reuse. settling: rounds that fill caches."""
     seconds: float
     round_s: float
@@ -31,11 +32,12 @@ class Plan:
     workers: int = 4
     actions: tuple = VISITS + FAULTS + PAGES
     kinds: tuple = Visit.kinds
-    is_long: bool = True  # long enough to show that nothing is lost
+    most_bytes: int = 4  # of the heap, a cycle
 
 
-SUITE = Plan(seconds=20, round_s=1.0, idle_s=0, looks_s=0.3, settling=2, workers=3, is_long=False,
-             actions=SWEPT_VISITS + FAULTS + PAGES, kinds=SWEPT)
+# Too short for small losses: caches fill meanwhile.
+SUITE = Plan(seconds=20, round_s=1.0, idle_s=0, looks_s=0.3, settling=2, workers=3,
+             actions=SWEPT_VISITS + FAULTS + PAGES, kinds=SWEPT, most_bytes=16384)
 SHORT = Plan(seconds=600, round_s=6, idle_s=6, looks_s=1, settling=12)
 HOUR = Plan(seconds=3600, round_s=12, idle_s=6, looks_s=1, settling=24)
 
@@ -54,7 +56,8 @@ def soak(program, plan, is_protected=False, environment=None, say=print):
         show_all(churn.visit(0, 0))
         series = Series()
         begun_s = None
-        while begun_s is None or time.monotonic() < begun_s + plan.seconds:
+        while (begun_s is None or len(series.readings) < SAMPLES_LEAST or
+               time.monotonic() < begun_s + plan.seconds):
             if len(series.readings) == plan.settling and begun_s is None:
                 say(f"settled after {churn.cycles:,} cycles: {series.readings[-1]}"
                     if series.readings else "begun")
@@ -67,7 +70,7 @@ def soak(program, plan, is_protected=False, environment=None, say=print):
             series.add(churn.cycles, gauges.at_rest(plan.idle_s, plan.looks_s))
             say_now_and_then(series, say)
         series.readings[-1] = last_reading(gauges, plan, series.readings[0])
-        return judged(series, churn.cycles, churn.failures)
+        return judged(series, churn.cycles, churn.failures, plan.most_bytes)
 
 
 def say_now_and_then(series, say):

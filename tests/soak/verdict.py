@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 
 from trend import trend_of
 
-BYTES_A_CYCLE = 4
 FAILED_SHARE = 0.02
 
 
@@ -35,10 +34,10 @@ class Verdict:
         return "\n".join([*self.lines, *(found or ["ok"])])
 
 
-def judged(series, cycles, failures):
-    """cycles: all. failures: by words, of clients."""
+def judged(series, cycles, failures, most_bytes):
+    """cycles: all. failures: by words, of clients. most_bytes: of the heap, a cycle."""
     verdict = Verdict()
-    judge_heap(series.trend(), len(series.readings), verdict)
+    judge_heap(series, most_bytes, verdict)
     begin, end = series.readings[0], series.readings[-1]
     for name in ("descriptors", "threads"):
         before, after = getattr(begin, name), getattr(end, name)
@@ -53,12 +52,13 @@ def judged(series, cycles, failures):
     return verdict
 
 
-def judge_heap(trend, count, verdict):
+def judge_heap(series, most_bytes, verdict):
+    trend, count = series.trend(), len(series.readings)
     if trend is None:
         verdict.unproven.append(f"the heap: {count} readings are too few")
         return
-    verdict.lines.append(f"heap: {trend.text()}, from {count} readings; at most {BYTES_A_CYCLE}")
-    if trend.low > BYTES_A_CYCLE:
+    verdict.lines.append(f"heap: {trend.text()}, from {count} readings; at most {most_bytes}")
+    if trend.low > most_bytes:
         verdict.leaks.append(f"heap: {trend.text()}")
-    elif trend.high > BYTES_A_CYCLE:
-        verdict.unproven.append(f"heap: the interval reaches beyond {BYTES_A_CYCLE} bytes a cycle")
+    elif trend.high > most_bytes:
+        verdict.unproven.append(f"heap: the interval reaches beyond {most_bytes} bytes a cycle")
