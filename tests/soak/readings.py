@@ -79,6 +79,6 @@ class Gauges:
         begun_s = time.monotonic()
         while not readings or time.monotonic() < begun_s + looks_s:
             sums = self.read()
+            time.sleep(LOOK_S)  # the server closes the connection of this look
             readings.append((sums[HEAP] - sums[IDLE], *self.counted()))
-            time.sleep(LOOK_S)
         return Reading(*(int(min(values)) for values in zip(*readings)))

@@ -13,7 +13,7 @@ from place import Protection, served
 from readings import Gauges
 from trend import SAMPLES_LEAST
 from verdict import Series, judged
-from visits import SWEPT, SWEPT_VISITS, VISITS, Visit, show_all
+from visits import SWEPT, SWEPT_VISITS, VISITS, Visit, leave_alike, show_all
 
 # At most this long, files and threads of clients that have left are waited for at the end.
 END_S = 30
@@ -67,6 +67,7 @@ def soak(program, plan, is_protected=False, environment=None, say=print):
             churn.run(plan.round_s)
             if not server.is_alive():
                 raise RuntimeError(f"the server ended with {server.process.returncode}")
+            leave_alike(place)
             series.add(churn.cycles, gauges.at_rest(plan.idle_s, plan.looks_s))
             say_now_and_then(series, say)
         series.readings[-1] = last_reading(gauges, plan, series.readings[0])

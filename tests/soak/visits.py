@@ -16,6 +16,7 @@ from viewloom.v1 import (display_service_pb2, display_service_pb2_grpc, ingest_s
                          ingest_service_pb2_grpc)
 
 PATIENCE_S = 60
+STREAMS_MAX = 16  # the default of the server
 # Without kernels that take seconds to compile.
 SWEPT = ("quilt", "quilt-top-left", "quilt-wide", "quilt-background")
 PLAIN = DISPLAYS["quilt"]
@@ -142,6 +143,15 @@ def wait_for_nobody(visit):
     """A display of a stream that does not come."""
     with visit.call("watch", opening(f"{visit.stream}.nobody")):
         pass
+
+
+def leave_alike(place):
+    """A server keeps the newest frame of each stream, as many as it may have. Afterwards they are
+    always the same ones."""
+    with place.connect() as server:
+        for number in range(STREAMS_MAX):
+            with server.publish(f"kept.{number}") as publisher:
+                publisher.send(healthy_pair.source(0)).result(PATIENCE_S)
 
 
 def show_all(visit):
