@@ -8,8 +8,11 @@
 namespace viewloom {
 namespace {
 
-// Payers of one level that are remembered, of those without a debt.
-constexpr size_t kKeptCount = 256;
+// Most that are remembered: payers, streams of one payer, displays of one stream. No budget counts
+// them, and clients choose the names of streams and the pictures of displays.
+constexpr size_t kKeptPayers = 1024;
+constexpr size_t kKeptStreams = 64;
+constexpr size_t kKeptDisplays = 128;
 
 const Payer kServer;
 
@@ -34,11 +37,25 @@ const auto& soonest(const Candidates& candidates) {
       candidates, {}, [](const auto& candidate) { return candidate.claim->deadline_ns; });
 }
 
-// Forgets payers without a debt, who are as good as new ones.
-template <typename Level, typename Map>
-void forgetSome(const Level& level, Map& payers) {
-  if (payers.size() <= kKeptCount) return;
-  std::erase_if(payers, [&](const auto& entry) { return entry.second.finish_ns <= level.now_ns; });
+// Forgets the half with the least debts. Debts are small beside kCredit_ns: whoever has one is not
+// served before the others.
+template <typename Map>
+void forgetHalf(Map& nodes) {
+  std::vector<int64_t> finishes_ns;
+  finishes_ns.reserve(nodes.size());
+  for (const auto& [key, node] : nodes) finishes_ns.push_back(node.finish_ns);
+  const auto middle = finishes_ns.begin() + std::ptrdiff_t(finishes_ns.size() / 2);
+  std::ranges::nth_element(finishes_ns, middle);
+  std::erase_if(nodes, [&](const auto& entry) { return entry.second.finish_ns <= *middle; });
+}
+
+// The node of a key, which may be new.
+template <typename Map>
+auto& nodeOf(Map& nodes, const typename Map::key_type& key, size_t kept_count) {
+  const auto found = nodes.find(key);
+  if (found != nodes.end()) return found->second;
+  if (nodes.size() >= kept_count) forgetHalf(nodes);
+  return nodes[key];
 }
 
 }  // namespace
@@ -128,26 +145,31 @@ void FairShares::keepLeastDisplays(const Account* account, std::vector<Candidate
 }
 
 FairShares::Account& FairShares::accountOf(const Payer& payer) {
-  forgetSome(level_, accounts_);
-  return accounts_[payer];
+  return nodeOf(accounts_, payer, kKeptPayers);
+}
+
+FairShares::Stream& FairShares::streamOf(Account& account, const Claim& claim) {
+  return nodeOf(account.streams, claim.stream, kKeptStreams);
+}
+
+FairShares::Node& FairShares::displayOf(Stream& stream, const Claim& claim) {
+  return nodeOf(stream.displays, claim.display, kKeptDisplays);
 }
 
 void FairShares::move(const Claim& claim, int64_t time_ns) {
   Account& account = accountOf(payerOf(claim));
   level_.move(account, time_ns);
-  forgetSome(account.level, account.streams);
-  Stream& stream = account.streams[claim.stream];
+  Stream& stream = streamOf(account, claim);
   account.level.move(stream, time_ns);
-  forgetSome(stream.level, stream.displays);
-  stream.level.move(stream.displays[claim.display], time_ns);
+  stream.level.move(displayOf(stream, claim), time_ns);
 }
 
 void FairShares::enter(const Claim& claim) {
   std::lock_guard lock(mutex_);
   const Payers payers = claim.payers.empty() ? Payers{kServer} : claim.payers;
   for (const Payer& payer : payers) {
-    Stream& stream = accountOf(payer).streams[claim.stream];
-    Node& display = stream.displays[claim.display];
+    Stream& stream = streamOf(accountOf(payer), claim);
+    Node& display = displayOf(stream, claim);
     display.finish_ns = stream.level.startOf(display);
   }
 }
@@ -166,9 +188,9 @@ void FairShares::finish(const Claim& claim, int64_t predicted_ns, int64_t measur
   const int64_t more_ns = paid_ns - predicted_ns;
   account.eyes.note(claim.is_tracked, paid_ns);
   account.finish_ns += more_ns;
-  Stream& stream = account.streams[claim.stream];
+  Stream& stream = streamOf(account, claim);
   stream.finish_ns += more_ns;
-  stream.displays[claim.display].finish_ns += more_ns;
+  displayOf(stream, claim).finish_ns += more_ns;
 }
 
 }  // namespace viewloom

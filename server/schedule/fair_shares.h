@@ -118,6 +118,8 @@ class FairShares {
   static void keepLeastDisplays(const Account* account, std::vector<Candidate>& candidates);
   void move(const Claim& claim, int64_t time_ns);
   Account& accountOf(const Payer& payer);
+  static Stream& streamOf(Account& account, const Claim& claim);
+  static Node& displayOf(Stream& stream, const Claim& claim);
 
   mutable std::mutex mutex_;  // guards what follows
   Level level_;

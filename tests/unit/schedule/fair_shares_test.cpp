@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/cost_estimate.h"
+#include "base/heap.h"
 
 namespace viewloom::fair_shares_test {
 namespace {
@@ -247,6 +248,27 @@ TEST(FairShares, cancelledWorkHoldsNobodyUp) {
   const int64_t before_ns = clients[0].had_ns;
   server.run(clients, 10 * kSecond_ns);
   EXPECT_EQ(clients[0].had_ns - before_ns, 10 * kSecond_ns);
+}
+
+// Names that are used once, as long as anybody likes.
+TEST(FairShares, remembersFewOfThoseThatHaveGone) {
+  if (lentHeapBytes() == 0) GTEST_SKIP() << "the C library does not say what it has lent";
+  constexpr int kCount = 20000;
+  constexpr uint64_t kMost_bytes = 1 << 20;
+  const uint64_t before_bytes = lentHeapBytes();
+  FairShares shares;
+  const auto serve = [&shares](const Claim& claim) {
+    shares.enter(claim);
+    shares.begin(claim, kMs_ns);
+    shares.finish(claim, kMs_ns, kMs_ns);
+  };
+  for (int i = 0; i < kCount; ++i) {
+    const std::string name = "once" + std::to_string(i);
+    serve({.payers = {Payer::ofHost(address(1))}, .stream = name, .display = "quilt"});
+    serve({.payers = {Payer::ofHost(address(1))}, .stream = "s", .display = name});
+    serve({.payers = {Payer(name)}, .stream = "s", .display = "quilt"});
+  }
+  EXPECT_LT(lentHeapBytes(), before_bytes + kMost_bytes);
 }
 
 }  // namespace
