@@ -1,27 +1,34 @@
 # SPDX-License-Identifier: Apache-2.0
 """What a server holds: its heap, its files and its threads."""
 
+import contextlib
 import http.client
 import os
 import re
 import time
 from dataclasses import dataclass
+from pathlib import Path
 
 # Gauges of clients. The scrape itself is one HTTP connection.
 BUSY = ("viewloom_subscribers", "viewloom_streams_live", "viewloom_displays",
         "viewloom_grpc_connections")
 HTTP, OWN_CONNECTIONS = "viewloom_http_connections", 1
 HEAP, IDLE = "viewloom_memory_heap_bytes", "viewloom_memory_idle_bytes"
+# Names of threads of the gRPC library, as the system cuts them off.
+POOLS = ("default-executo", "event_engine", "grpc_global_tim", "nexting_thread", "resolver-execut",
+         "timer_manager")
 LOOK_S = 0.2
 ANSWER_S = 30
 
 
 @dataclass(frozen=True)
 class Reading:
-    """At rest: nobody is connected. heap: bytes that are lent, without what waits for reuse."""
+    """At rest: nobody is connected. heap: bytes that are lent, without what waits for reuse.
+    threads: without those of the gRPC library's pools, which grow with the load."""
     heap: int
     descriptors: int
     threads: int
+    pool_threads: int
 
 
 def sums_of(text):
@@ -59,9 +66,14 @@ class Gauges:
                 sums[HTTP] <= OWN_CONNECTIONS)
 
     def counted(self):
-        """Open files and threads of the process."""
-        process = f"/proc/{self.place.pid}"
-        return len(os.listdir(f"{process}/fd")), len(os.listdir(f"{process}/task"))
+        """Open files, threads, and threads of pools of the process."""
+        process = Path(f"/proc/{self.place.pid}")
+        names = []
+        for thread in (process / "task").iterdir():
+            with contextlib.suppress(OSError):  # it has just ended
+                names.append((thread / "comm").read_text().strip())
+        pooled = sum(name in POOLS for name in names)
+        return len(os.listdir(process / "fd")), len(names) - pooled, pooled
 
     def at_rest(self, idle_s, looks_s):
         """The smallest values within `looks_s`, once nobody is connected, and once no buffer waits

@@ -2,9 +2,11 @@
 """A server that clients churn for a while, and what it holds at rest, round after round."""
 
 import contextlib
+import subprocess
 import time
 from dataclasses import dataclass
 
+import viewloom
 from chores import Chores
 from churn import Churn
 from faults import FAULTS
@@ -18,6 +20,7 @@ from visits import SWEPT, SWEPT_VISITS, VISITS, Visit, leave_alike, show_all
 # At most this long, files and threads of clients that have left are waited for at the end.
 END_S = 30
 SETTLED_S = 0.5
+ENDING_S = 5  # a process that was killed ends within this
 
 
 @dataclass(frozen=True)
@@ -65,13 +68,24 @@ def soak(program, plan, is_protected=False, environment=None, say=print):
             if chores:
                 chores.next()
             churn.run(plan.round_s)
-            if not server.is_alive():
-                raise RuntimeError(f"the server ended with {server.process.returncode}")
-            leave_alike(place)
-            series.add(churn.cycles, gauges.at_rest(plan.idle_s, plan.looks_s))
+            with ended_server_named(server):
+                leave_alike(place)
+                series.add(churn.cycles, gauges.at_rest(plan.idle_s, plan.looks_s))
             say_now_and_then(series, say)
         series.readings[-1] = last_reading(gauges, plan, series.readings[0])
         return judged(series, churn.cycles, churn.failures, plan.most_bytes)
+
+
+@contextlib.contextmanager
+def ended_server_named(server):
+    """Clients fail where the server has ended: that is the error then."""
+    try:
+        yield
+    except (OSError, viewloom.ViewloomError):
+        with contextlib.suppress(subprocess.TimeoutExpired):
+            server.process.wait(ENDING_S)
+            raise RuntimeError(f"the server ended with {server.process.returncode}") from None
+        raise
 
 
 def say_now_and_then(series, say):
