@@ -22,7 +22,7 @@ SeedBytes tokensSeeds() {
   return textSeeds(
       {R"({"id":"camera-1",)" + sha256 +
            R"(,"roles":["publish","watch"],"streams":["room.*"],"expires":"2027-01-31T12:00:00Z",)"
-           R"("limits":{"streams":2,"connections":4,"pixels_per_s":1000000000},"note":"left \u0077all"})",
+           R"("limits":{"streams":2,"connections":4,"pixels_per_s":9000},"note":"\u0077all"})",
        "# ours\n\n{\"id\":\"wall\"," + sha256 + R"(,"roles":"operate","streams":"*"})" +
            "\r\n{\"id\":\"b\"," + sha256 +
            R"(,"roles":["watch"],"streams":["a","b"],"expires":"2027-01-31"})"});

@@ -15,7 +15,7 @@ from place import Protection, served
 from readings import Gauges
 from trend import SAMPLES_LEAST
 from verdict import Series, judged
-from visits import SWEPT, SWEPT_VISITS, VISITS, Visit, leave_alike, show_all
+from visits import STREAMS_MAX, SWEPT, SWEPT_VISITS, VISITS, Visit, leave_alike, show_all
 
 # At most this long, files and threads of clients that have left are waited for at the end.
 END_S = 30
@@ -25,8 +25,9 @@ ENDING_S = 5  # a process that was killed ends within this
 
 @dataclass(frozen=True)
 class Plan:
-    """seconds: of the rounds that count, at least eight. round_s: how long clients come and go before a reading.
-    idle_s: patience for buffers that wait for reuse. settling: rounds that fill caches."""
+    """seconds: of the rounds that count, at least eight. round_s: how long clients come and go
+    before a reading. idle_s: patience for buffers that wait for reuse. settling: rounds that fill
+    caches. streams_left: see leave_alike()."""
     seconds: float
     round_s: float
     idle_s: float
@@ -35,12 +36,14 @@ class Plan:
     workers: int = 4
     actions: tuple = VISITS + FAULTS + PAGES
     kinds: tuple = Visit.kinds
+    streams_left: int = STREAMS_MAX
     most_bytes: int = 4  # of the heap, a cycle
 
 
 # Too short for small losses: caches fill meanwhile.
 SUITE = Plan(seconds=20, round_s=1.0, idle_s=0, looks_s=0.3, settling=2, workers=3,
-             actions=SWEPT_VISITS + FAULTS + PAGES, kinds=SWEPT, most_bytes=16384)
+             actions=SWEPT_VISITS + FAULTS + PAGES, kinds=SWEPT, most_bytes=16384,
+             streams_left=0)
 SHORT = Plan(seconds=600, round_s=6, idle_s=6, looks_s=1, settling=12)
 HOUR = Plan(seconds=3600, round_s=12, idle_s=6, looks_s=1, settling=24)
 
@@ -69,7 +72,7 @@ def soak(program, plan, is_protected=False, environment=None, say=print):
                 chores.next()
             churn.run(plan.round_s)
             with ended_server_named(server):
-                leave_alike(place)
+                leave_alike(place, plan.streams_left)
                 series.add(churn.cycles, gauges.at_rest(plan.idle_s, plan.looks_s))
             say_now_and_then(series, say)
         series.readings[-1] = last_reading(gauges, plan, series.readings[0])

@@ -145,11 +145,11 @@ def wait_for_nobody(visit):
         pass
 
 
-def leave_alike(place):
-    """A server keeps the newest frame of each stream, as many as it may have. Afterwards they are
-    always the same ones."""
+def leave_alike(place, count):
+    """A server keeps the newest frame of each stream, as many as it may have. After so many streams
+    they are always the same ones."""
     with place.connect() as server:
-        for number in range(STREAMS_MAX):
+        for number in range(count):
             with server.publish(f"kept.{number}") as publisher:
                 publisher.send(healthy_pair.source(0)).result(PATIENCE_S)
 
