@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lets Vulkan fail under a server of its own on loopback, and judges what the server does.
+
+Arguments: viewloomd, the folder of the layer's manifest, and --suite, --stage NAME..., --sites COUNT
+--seed NUMBER, or --calls. PYTHONPATH has the Python client. Each stage is lived through without a
+fault first: its pictures are those that must come, its calls those that fail. Prints a row for each
+fault. The exit code is 1 if a server stayed half alive, showed a wrong picture, or ended as it
+should not.
+"""
+
+import argparse
+import collections
+import random
+import sys
+
+import judge
+import plan
+from pictures import Pictures
+from stages import BY_NAME, STAGES
+from trial import Trial
+
+HEADER = ("| stage | call that fails | outcome | after, s | verdict |\n"
+          "|---|---|---|---|---|")
+CLEAN_PATIENCE_S = 120.0
+
+
+def row(outcome, found):
+    after_s = outcome.end_s if outcome.end_s is not None else outcome.again_s
+    after = "-" if after_s is None else f"{after_s:.2f}"
+    return (f"| {outcome.stage} | {outcome.fault.text()} | {outcome.kind()} | {after} "
+            f"| {'; '.join(found) or 'ok'} |")
+
+
+class Faults:
+    """Stages that were recorded, and the outcomes so far."""
+
+    def __init__(self, words, limits):
+        self.words, self.limits = words, limits
+        self.pictures = Pictures()
+        self.clean = {}
+        self.tally = collections.Counter()
+        self.longest_s = collections.Counter()
+        self.bad = 0
+
+    def record(self, stage):
+        """The stage without a fault."""
+        if stage.name not in self.clean:
+            self.pictures.is_learning = True
+            outcome = Trial(self.words.viewloomd, self.words.layers, stage, self.pictures,
+                            patience_s=CLEAN_PATIENCE_S).outcome
+            self.pictures.is_learning = False
+            if outcome.wrong or (outcome.stop_code, outcome.exit_code) not in ((0, None), (0, 0)):
+                raise RuntimeError(f"{stage.name} fails without a fault: {outcome}")
+            self.clean[stage.name] = outcome
+        return self.clean[stage.name]
+
+    def plant(self, stage, fault):
+        clean = self.record(stage)
+        outcome = Trial(self.words.viewloomd, self.words.layers, stage, self.pictures, fault,
+                        clean_s=clean.clean_s,
+                        patience_s=self.limits.again_s + 2 * clean.clean_s + 10).outcome
+        found = judge.found(outcome, self.limits)
+        print(row(outcome, found), flush=True)
+        if found and self.words.verbose:
+            print(outcome, flush=True)
+        self.bad += bool(found)
+        self.tally[outcome.kind()] += 1
+        after_s = outcome.end_s if outcome.end_s is not None else outcome.again_s
+        if after_s is not None:
+            self.longest_s[outcome.kind()] = max(self.longest_s[outcome.kind()], after_s)
+
+    def say_end(self):
+        kinds = ", ".join(f"{count} {kind} (at most {self.longest_s[kind]:.1f} s)"
+                          for kind, count in sorted(self.tally.items()))
+        print(f"\n{sum(self.tally.values())} faults: {kinds or 'none'}; {self.bad} not in order")
+
+
+def print_calls(faults, stages):
+    """Functions by stage; those in brackets cannot fail."""
+    for stage in stages:
+        counts = faults.record(stage).counts
+        can_fail = plan.fallible(counts)
+        words = [f"{name} {count}" if name in can_fail else f"({name} {count})"
+                 for name, count in sorted(counts.items())]
+        print(f"{stage.name}: {len(can_fail)} functions that can fail, "
+              f"{sum(can_fail.values())} calls: {', '.join(words)}", flush=True)
+
+
+def run(words):
+    faults = Faults(words, judge.SUITE if words.suite else judge.FULL)
+    stages = [BY_NAME[name] for name in words.stage] or STAGES
+    if words.calls:
+        print_calls(faults, stages)
+        return 0
+    print(HEADER)
+    if words.suite:
+        for name, fault in plan.SHORT:
+            faults.plant(BY_NAME[name], fault)
+    elif words.sites:
+        chooser = random.Random(words.seed)
+        for stage in plan.random_stages(words.seed, words.sites):
+            faults.plant(stage, plan.random_fault(chooser, faults.record(stage).counts))
+    else:
+        for stage in stages:
+            for fault in plan.faults_in(faults.record(stage).counts):
+                if words.only in fault.text():
+                    faults.plant(stage, fault)
+    faults.say_end()
+    return 1 if faults.bad else 0
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("viewloomd")
+    parser.add_argument("layers")
+    parser.add_argument("--suite", action="store_true", help="a handful of faults")
+    parser.add_argument("--stage", action="append", default=[], choices=list(BY_NAME))
+    parser.add_argument("--only", default="", metavar="TEXT", help="faults with TEXT in them")
+    parser.add_argument("--sites", type=int, default=0, metavar="COUNT", help="random calls")
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--calls", action="store_true", help="list the functions, plant nothing")
+    parser.add_argument("--verbose", action="store_true", help="all about what is not in order")
+    return run(parser.parse_args())
+
+
+if __name__ == "__main__":
+    sys.exit(main())
