@@ -169,7 +169,17 @@ TraceSlotShape WalkMaking::stripShape(const AtlasOrder& order) {
 }
 
 MakingStep WalkMaking::step() {
-  return withinDeviceMemory([this] { return makePart(); });
+  try {
+    return withinDeviceMemory([this] { return makePart(); });
+  } catch (...) {
+    forgetMeans();
+    throw;
+  }
+}
+
+// They may have been recorded and never made, and other pictures would go on with them.
+void WalkMaking::forgetMeans() {
+  for (const StructureSlot* structure : structures_) structure->meanColor().forget();
 }
 
 MakingStep WalkMaking::makePart() {

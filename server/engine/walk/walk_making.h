@@ -82,6 +82,7 @@ class WalkMaking final : public Making {
 
  private:
   MakingStep makePart();
+  void forgetMeans();
   MakingStep stepMeans();
   MakingStep stepPart();
   CommandRecorder& nextRecorder();
