@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/submission.h"
 
+#include <chrono>
+#include <stdexcept>
+#include <thread>
 #include <utility>
 
+#include "base/str_cat.h"
+#include "gpu/device_error.h"
 #include "gpu/vulkan.h"
 
 namespace viewloom {
@@ -19,16 +24,38 @@ vk::raii::CommandBuffer allocateCommands(const Device& device, vk::CommandPool p
   return std::move(commands.front());
 }
 
+// A driver that gives up too early is asked again.
+constexpr uint64_t kPatience_ns = 1'000'000'000;
+// Where a driver has no memory to wait with, it is asked again for a second.
+constexpr int kAttempts = 100;
+constexpr std::chrono::milliseconds kAttemptPause{10};
+
 }  // namespace
 
 Timeline::Timeline(const Device& device)
     : device_(&device), semaphore_(hide(makeSemaphore(device))) {}
 
 bool Timeline::wait(uint64_t value, uint64_t timeout_ns) const {
+  if (timeout_ns != kForeverNs) return waitOnce(value, timeout_ns);
+  while (!waitOnce(value, kPatience_ns)) {
+  }
+  return true;
+}
+
+bool Timeline::waitOnce(uint64_t value, uint64_t timeout_ns) const {
   const vk::Semaphore semaphore = **semaphore_;
-  const vk::Result result = device_->handle().waitSemaphores(
-      {.semaphoreCount = 1, .pSemaphores = &semaphore, .pValues = &value}, timeout_ns);
-  return result == vk::Result::eSuccess;
+  const vk::SemaphoreWaitInfo info{
+      .semaphoreCount = 1, .pSemaphores = &semaphore, .pValues = &value};
+  for (int attempt = 1;; ++attempt) {
+    try {
+      return device_->handle().waitSemaphores(info, timeout_ns) == vk::Result::eSuccess;
+    } catch (const vk::SystemError& error) {
+      if (!isOutOfDeviceMemory(error)) throw;
+      // Not an error of missing memory: those let go of what the device may still use.
+      if (attempt == kAttempts) throw std::runtime_error(deviceErrorText(error));
+    }
+    std::this_thread::sleep_for(kAttemptPause);
+  }
 }
 
 uint64_t Timeline::completedValue() const {

@@ -25,12 +25,16 @@ class Timeline {
   std::mutex& submitting() { return submitting_; }
   // The value the next submission signals; the first is 1.
   uint64_t nextValue() { return ++last_value_; }
-  // Waits until the value is reached; false = timed out. Throws vk::DeviceLostError.
+  // Waits until the value is reached; false = timed out, never with kForeverNs. Throws where nobody
+  // can know any more whether the device is done: vk::DeviceLostError, or std::runtime_error where
+  // there is no memory for the wait.
   bool wait(uint64_t value, uint64_t timeout_ns = kForeverNs) const;
   uint64_t completedValue() const;
   vk::Semaphore handle() const;
 
  private:
+  bool waitOnce(uint64_t value, uint64_t timeout_ns) const;
+
   const Device* device_;
   Hidden<vk::raii::Semaphore> semaphore_;
   std::mutex submitting_;
