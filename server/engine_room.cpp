@@ -75,6 +75,7 @@ std::unique_ptr<EngineRoom> openEngineRoom(const Config& config, const AtlasLimi
                                            EngineRoomLinks links) try {
   return std::make_unique<DeviceRoom>(config, limits, encode_thread_count, std::move(links));
 } catch (const std::exception& error) {
+  if (mayPass(error)) throw DeviceFailure(deviceErrorText(error));
   throw std::runtime_error(deviceErrorText(error));
 }
 

@@ -7,6 +7,7 @@
 #include <exception>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "admission/memory_budget.h"
@@ -47,8 +48,13 @@ struct EngineRoomLinks {
   std::function<void(const std::exception& error)> on_failure;  // see Service
 };
 
+// The device fails at the start, and may do better when the server is started again.
+struct DeviceFailure : std::runtime_error {
+  using runtime_error::runtime_error;
+};
+
 // Throws std::runtime_error, in words for users and with the remedy, when there is no device to
-// make atlases on. `encode_thread_count` >= 1.
+// make atlases on; DeviceFailure when there is one and it fails. `encode_thread_count` >= 1.
 std::unique_ptr<EngineRoom> openEngineRoom(const Config& config, const AtlasLimits& limits,
                                            uint32_t encode_thread_count, EngineRoomLinks links);
 

@@ -19,6 +19,7 @@
 #include "commands/contained_serve.h"
 #include "commands/reachable_addresses.h"
 #include "containment/containment.h"
+#include "engine_room.h"
 #include "service.h"
 #include "usage/command_line.h"
 #include "web/qr_code.h"
@@ -100,9 +101,7 @@ void sayReach(const Service& service, const Exposure& exposure,
   }
 }
 
-}  // namespace
-
-int serve(const Config& config) {
+int serveUntilStopped(const Config& config) {
   // gRPC's log is for its developers: what matters to users comes as an error.
   setenv("GRPC_VERBOSITY", "NONE", 0);
   keepFreedMemory();
@@ -132,6 +131,15 @@ int serve(const Config& config) {
   log(LogLevel::kInfo, "stopping: publishers and displays are told, and open calls end");
   service.drain();
   return has_failed ? kExitFailed : 0;
+}
+
+}  // namespace
+
+int serve(const Config& config) try {
+  return serveUntilStopped(config);
+} catch (const DeviceFailure& failure) {
+  log(LogLevel::kError, "the server cannot go on: ", failure.what());
+  return kExitFailed;
 }
 
 void addServeCommand(const usage::Command& app, RunCommand& chosen) {

@@ -54,6 +54,20 @@ bool isOutOfDeviceMemory(const std::exception& error) {
          dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
 }
 
+bool mayPass(const std::exception& error) {
+  const auto* const problem = dynamic_cast<const vk::SystemError*>(&error);
+  if (problem == nullptr) return isOutOfDeviceMemory(error);
+  switch (static_cast<vk::Result>(problem->code().value())) {
+    case vk::Result::eErrorIncompatibleDriver:
+    case vk::Result::eErrorLayerNotPresent:
+    case vk::Result::eErrorExtensionNotPresent:
+    case vk::Result::eErrorFeatureNotPresent:
+      return false;
+    default:
+      return true;
+  }
+}
+
 void ValidationLog::add(std::string message) {
   std::fprintf(stderr, "vulkan validation: %s\n", message.c_str());
   std::lock_guard lock(mutex_);

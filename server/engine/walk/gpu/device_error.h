@@ -20,6 +20,10 @@ std::string deviceErrorText(const std::exception& error);
 // Whether the device, or this computer, has no memory left for what was asked of it.
 bool isOutOfDeviceMemory(const std::exception& error);
 
+// Whether the driver failed at something that it may well do later: the device is reset just now,
+// memory is short. False where this machine lacks a driver, or a driver lacks what is asked of it.
+bool mayPass(const std::exception& error);
+
 // Warnings and errors of the validation layers of one device, so that tests can fail on any of
 // them. Thread-safety: all methods may be called from any thread.
 class ValidationLog {
