@@ -110,15 +110,22 @@ TEST_F(ViewloomdProcess, cancelsAReceiverThatDoesNotReadAndExitsWithZero) {
   EXPECT_FALSE(call->Finish().ok());
 }
 
+// The environment of a server whose Vulkan fails: a function, which of its calls, and the VkResult.
+std::vector<std::string> withFault(const std::string& fault) {
+  return {"VK_LAYER_PATH=" VIEWLOOM_LAYER_FOLDER, "VK_INSTANCE_LAYERS=VK_LAYER_VIEWLOOM_fault",
+          "VIEWLOOM_FAULT=" + fault};
+}
+
+constexpr const char* kDeviceLost = " -4";
+
 // The number of the submission at which the device is lost: the build of the first frame, the first
 // strip of its atlas, the next.
 class ViewloomdOnALostDevice : public DeviceNeededTest, public testing::WithParamInterface<int> {};
 
 TEST_P(ViewloomdOnALostDevice, saysWhyEndsItsCallsAndExitsWithThree) {
   testing::internal::CaptureStderr();
-  ServerProcess server(kAnyPorts, {"VK_LAYER_PATH=" VIEWLOOM_LAYER_FOLDER,
-                                   "VK_INSTANCE_LAYERS=VK_LAYER_VIEWLOOM_lost_device",
-                                   "VIEWLOOM_TEST_LOST_SUBMISSION=" + std::to_string(GetParam())});
+  ServerProcess server(kAnyPorts,
+                       withFault("vkQueueSubmit2 " + std::to_string(GetParam()) + kDeviceLost));
   const auto stub = v1::DisplayService::NewStub(makeChannel(server.grpcAddress()));
   grpc::ClientContext context;
   const auto call = stub->StreamAtlases(&context);
@@ -155,6 +162,12 @@ TEST_P(ViewloomdOnALostDevice, saysWhyEndsItsCallsAndExitsWithThree) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Submissions, ViewloomdOnALostDevice, testing::Values(1, 2, 3));
+
+TEST_F(ViewloomdProcess, exitsWithThreeWhenItsDeviceIsLostAtTheStart) {
+  ServerProcess server(kAnyPorts, withFault(std::string("vkCreateDevice 1") + kDeviceLost));
+  EXPECT_TRUE(server.grpcAddress().empty());
+  EXPECT_EQ(server.waitForExit(), 3);
+}
 
 TEST_F(ViewloomdProcess, exitsWithTwoOnASettingThatDoesNotExist) {
   ServerProcess server({"--no.such.setting", "1"});

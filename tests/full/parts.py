@@ -21,6 +21,7 @@ SOAKS = {"walk": ([], 200, 40), "sweep": (["sweep"], 2000, 20), "cube": (["cube"
          "sources": (["sources"], 100, 20), "beside": (["beside"], 100, 20)}
 FIRST_SEED = 100_000
 TERMINATIONS, TERMINATIONS_A_STEP = 100, 10
+FAULT_SEEDS = 5
 
 
 def build(preset, *targets):
@@ -113,6 +114,24 @@ def lasting():
                 build("release", "viewloomd", "viewloom_python", "viewloom_planted_fault"))
 
 
+def vulkan_faults():
+    """Each stage of a server's life is a step, and so are ten random calls."""
+    python = ["env", "PYTHONPATH=build/release/client/python", sys.executable]
+    command = [*python, "tests/vulkan_faults/main.py", "build/release/server/viewloomd",
+               "build/release/tests/vulkan_faults/layers"]
+
+    def steps():
+        names = subprocess.run([*python, "tests/vulkan_faults/stages.py"], check=True,
+                               capture_output=True, text=True).stdout.splitlines()
+        return ([Step(name, [*command, "--stage", name]) for name in names] +
+                [Step(f"random calls {seed}",
+                      [*command, "--sites", "10", "--seed", str(seed)], 10)
+                 for seed in range(1, FAULT_SEEDS + 1)])
+    return Part("vulkan-faults", "each function of Vulkan fails in each stage, and 50 random calls",
+                "stages and calls", steps,
+                build("release", "viewloomd", "viewloom_fault_layer", "viewloom_python"))
+
+
 def compare():
     """Builds the commit VIEWLOOM_COMPARE_WITH beside this one."""
     before = os.path.abspath("build/before")
@@ -151,6 +170,7 @@ PARTS = [
     attack(),
     overload(),
     lasting(),
+    vulkan_faults(),
     compare(),
     Part("bare-system", "packages, build and first picture in a bare Debian 12 (as root)", "runs",
          lambda: [Step("debootstrap to picture", ["tests/full/bare_system.sh"])]),

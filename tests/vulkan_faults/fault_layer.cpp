@@ -98,8 +98,7 @@ void loseDevice() {
   std::lock_guard lock(queue_mutex);
   if (is_lost) return;
   const auto wait_idle = reinterpret_cast<PFN_vkDeviceWaitIdle>(
-      newest_device == nullptr ? nullptr
-                               : next_device_function(newest_device, "vkDeviceWaitIdle"));
+      newest_device == nullptr ? nullptr : next_device_function(newest_device, "vkDeviceWaitIdle"));
   if (wait_idle != nullptr) wait_idle(newest_device);
   is_lost = true;
 }
@@ -211,9 +210,8 @@ VKAPI_ATTR void VKAPI_CALL destroyDevice(VkDevice device, const VkAllocationCall
     std::lock_guard lock(queue_mutex);
     if (newest_device == device) newest_device = VK_NULL_HANDLE;
   }
-  passed(kIndexOf_vkDestroyDevice, [&] {
-    nextOf<PFN_vkDestroyDevice>(kIndexOf_vkDestroyDevice)(device, allocator);
-  });
+  passed(kIndexOf_vkDestroyDevice,
+         [&] { nextOf<PFN_vkDestroyDevice>(kIndexOf_vkDestroyDevice)(device, allocator); });
 }
 
 PFN_vkVoidFunction hookOf(uint32_t function) {

@@ -5,10 +5,8 @@ import re
 from dataclasses import dataclass, field
 
 EXIT_REFUSED, EXIT_FAILED = 2, 3
-# One line of words, and no memory address or stack.
-SAID_WHILE_SERVING = re.compile(r"^\S+ error the server cannot go on: [A-Za-z].{20,}$",
-                                re.MULTILINE)
-SAID_AT_START = re.compile(r"^viewloomd: [A-Za-z].{20,}$", re.MULTILINE)
+SAID_WHILE_SERVING = r"^\S+ error the server cannot go on: [A-Za-z].{20,}$"
+SAID_AT_START = r"^viewloomd: [A-Za-z].{20,}$"
 
 
 @dataclass(frozen=True)
@@ -56,6 +54,8 @@ class Outcome:
     def kind(self):
         if not self.has_failed:
             return "not reached"
+        if self.wrong:
+            return "wrong picture"
         if self.end_s is not None:
             return f"exit {self.exit_code}"
         return "served again" if self.again_s is not None else "half alive"
@@ -64,15 +64,14 @@ class Outcome:
 def found_in_end(outcome, limits):
     """The process has ended by itself, or in a drain."""
     found = []
-    if outcome.was_stopping and outcome.exit_code == 0:
-        accepted, said = (0,), None
-    elif outcome.had_started:
-        accepted, said = (EXIT_FAILED,), SAID_WHILE_SERVING
-    else:
-        accepted, said = (EXIT_REFUSED, EXIT_FAILED), SAID_AT_START
-    if outcome.exit_code not in accepted:
+    said = {EXIT_FAILED: SAID_WHILE_SERVING}
+    if outcome.was_stopping:
+        said[0] = ""
+    if not outcome.had_started:
+        said[EXIT_REFUSED] = SAID_AT_START
+    if outcome.exit_code not in said:
         found.append(f"ended with {outcome.exit_code}")
-    elif said and not said.search(outcome.log):
+    elif not re.search(said[outcome.exit_code], outcome.log, re.MULTILINE):
         found.append(f"ended with {outcome.exit_code} and without a sentence")
     if outcome.end_s > limits.end_s:
         found.append(f"took {outcome.end_s:.1f} s to end")
@@ -87,9 +86,9 @@ def found(outcome, limits):
         return result
     if outcome.end_s is not None:
         return result + found_in_end(outcome, limits)
-    if outcome.again_s is None:
+    if outcome.again_s is None and not outcome.wrong:
         result.append("half alive: neither served nor ended")
-    elif outcome.again_s > limits.again_s + outcome.clean_s:
+    elif outcome.again_s and outcome.again_s > limits.again_s + outcome.clean_s:
         result.append(f"served again only after {outcome.again_s:.1f} s")
     if outcome.stop_code != 0:
         result.append("does not end at SIGTERM" if outcome.stop_code is None

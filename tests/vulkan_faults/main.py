@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Lets Vulkan fail under a server of its own on loopback, and judges what the server does.
 
-Arguments: viewloomd, the folder of the layer's manifest, and --suite, --stage NAME..., --sites COUNT
---seed NUMBER, or --calls. PYTHONPATH has the Python client. Each stage is lived through without a
-fault first: its pictures are those that must come, its calls those that fail. Prints a row for each
-fault. The exit code is 1 if a server stayed half alive, showed a wrong picture, or ended as it
-should not.
+Arguments: viewloomd, the folder of the layer's manifest, and --suite, --stage NAME, --sites COUNT
+with --seed NUMBER, or --calls. PYTHONPATH has the Python client. Each stage is lived through
+without a fault first: its pictures are those that must come, its calls those that fail. Prints a
+row for each fault. The exit code is 1 if a server stayed half alive, showed a wrong picture, or
+ended as it should not.
 """
 
 import argparse

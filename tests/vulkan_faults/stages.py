@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The stages of a server's life in which Vulkan fails."""
+"""The stages of a server's life in which Vulkan fails. As a program it prints their names."""
 
 import enum
 from dataclasses import dataclass
@@ -41,3 +41,6 @@ STAGES = [
     Stage("shut down", frames=(), moment=Moment.STOPPING),
 ]
 BY_NAME = {stage.name: stage for stage in STAGES}
+
+if __name__ == "__main__":
+    print("\n".join(BY_NAME))

@@ -128,7 +128,8 @@ class Trial:
         """A server that ended by itself, or will, is given its time for that."""
         outcome = self.outcome
         is_stopping = self.stage.moment is Moment.STOPPING
-        if not is_stopping and outcome.again_s is None and self.server.board.fault_count():
+        has_fault = self.server.board.fault_count() and not self.notes.wrong
+        if not is_stopping and outcome.again_s is None and has_fault:
             self.server.wait(self.patience_s)
         if not self.server.is_alive():
             return
