@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A publisher and a viewer that call again whenever they are refused, and never wait for ever."""
 
+import itertools
 import threading
 
 import viewloom
@@ -66,17 +67,20 @@ class Client(threading.Thread):
 
 
 class Publishing(Client):
-    """Sends the same frame ten times a second, which the server drops while it has it."""
+    """Sends its frames in turn, ten a second. One alone the server drops while it has it."""
 
     def __init__(self, server, notes, make_source):
         super().__init__(server, notes)
         self.make_source = make_source
-        self.frame = scene.FIRST
+        self.frames = (scene.FIRST,)
 
     def call(self):
         with self.server.publish(STREAM, in_flight_max=2) as publisher:
-            while not self.stopping.wait(PERIOD_S):
-                frame = self.frame
+            for number in itertools.count():
+                if self.stopping.wait(PERIOD_S):
+                    return
+                frames = self.frames
+                frame = frames[number % len(frames)]
                 report = publisher.send(self.make_source(frame), capture_time_ns=frame)
                 report.add_done_callback(self.note)
 

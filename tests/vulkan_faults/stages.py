@@ -18,7 +18,8 @@ class Moment(enum.Enum):
 @dataclass(frozen=True)
 class Stage:
     """before: frames that are served first. frames: those that are then to be served, one after
-    the other, on `display` and on the one that is watched all the time."""
+    the other, on `display` and on the one that is watched all the time; in turn while the server
+    stops."""
     name: str
     display: str = "watched"
     before: tuple = (FIRST,)
@@ -38,7 +39,7 @@ STAGES = [
     Stage("next frame", frames=(SECOND, FIRST)),
     Stage("other shape", frames=(LAYERED, FIRST)),
     *(Stage(name, display=name) for name in scene.DISPLAYS if name != "watched"),
-    Stage("shut down", frames=(), moment=Moment.STOPPING),
+    Stage("shut down", before=(SECOND, FIRST), moment=Moment.STOPPING),
 ]
 BY_NAME = {stage.name: stage for stage in STAGES}
 

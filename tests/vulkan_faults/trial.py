@@ -14,6 +14,7 @@ from stages import Moment
 
 LOOK_S = 0.05
 STOP_S = 15.0
+BUSY_S = 1.0  # of frames that go on coming while the server stops
 WATCHED = "watched"
 
 
@@ -54,6 +55,9 @@ class Trial:
             finally:
                 for client in clients:
                     client.stop()
+                for client in clients:
+                    if client.is_alive():
+                        client.join(STOP_S)
 
     def _live(self, clients):
         if self.stage.before:
@@ -63,18 +67,24 @@ class Trial:
             if not self._is_served(WATCHED, frame):
                 raise RuntimeError(f"no picture before the fault: {self.notes.refusals}"
                                    f"{self.notes.wrong}\n{self.server.log()}")
-        counts = {} if self.stage.moment is Moment.START else self.server.board.counts()
-        if self.stage.moment is not Moment.START:
+        if self.stage.moment is Moment.STOPPING:
+            self.publishing.frames = self.stage.frames
+            time.sleep(BUSY_S)
+        counts = self.server.board.counts()
+        if self.stage.moment is Moment.START:
+            self.outcome.counts = counts
+        else:
             self._arm(self.server.board)
         if not self.stage.before:
             for client in clients:
                 client.start()
         begun_s = time.monotonic()
         is_served = self._warm_up() if self.stage.warms_up else True
-        is_served = is_served and all(self._is_served(self.stage.display, frame)
-                                      for frame in self.stage.frames)
-        self.outcome.clean_s = self.outcome.clean_s or time.monotonic() - begun_s
         if self.stage.moment is not Moment.STOPPING:
+            is_served = is_served and all(self._is_served(self.stage.display, frame)
+                                          for frame in self.stage.frames)
+        self.outcome.clean_s = self.outcome.clean_s or time.monotonic() - begun_s
+        if self.stage.moment is Moment.SERVING:
             self._count(counts)
         if is_served and self.server.board.fault_count() and self.outcome.again_s is None:
             self.outcome.again_s = time.monotonic() - self.server.board.fault_s()
@@ -94,7 +104,7 @@ class Trial:
 
     def _is_served(self, display, frame):
         """Whether that display and the watched one come to show that frame rightly."""
-        self.publishing.frame = frame
+        self.publishing.frames = (frame,)
         deadline_s = time.monotonic() + self.patience_s
         had_failed = self.server.board.fault_count()
         while time.monotonic() < deadline_s and not self.notes.wrong:
