@@ -93,12 +93,12 @@ class Publishing(Client):
 class Watching(Client):
     """Watches one display all the time."""
 
-    def __init__(self, server, notes, name, display):
+    def __init__(self, server, notes, display):
         super().__init__(server, notes)
-        self.name, self.display = name, display
+        self.display = display
 
     def call(self):
-        with self.server.watch(STREAM, self.display, encoding=scene.LOSSLESS,
+        with self.server.watch(STREAM, scene.DISPLAYS[self.display], encoding=scene.LOSSLESS,
                                wait_for_stream=True) as watcher:
             while not self.stopping.is_set():
                 try:
@@ -109,4 +109,4 @@ class Watching(Client):
                     raise
                 if atlas is None:
                     return
-                self.notes.see(self.name, atlas)
+                self.notes.see(self.display, atlas)

@@ -31,6 +31,9 @@ WATCHED = {"cameras": {"tile_size": {"width": 48, "height": 36}, "cameras": [
     for x in (-0.03, 0.03)]}}
 DISPLAYS = {
     "watched": WATCHED,
+    # Takes a second on two cores, so that a server that is told to stop is at work.
+    "large": {"quilt": {**QUILT, "columns": 8, "rows": 6, "size": {"width": 960, "height": 540}},
+              **BESIDE},
     "sweep": {"quilt": QUILT},
     "quilt": {"quilt": {**QUILT, "columns": 8, "size": {"width": 384, "height": 72}}, **BESIDE},
     "cameras": {"cameras": {"tile_size": TILE, "cameras": [

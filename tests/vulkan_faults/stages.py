@@ -28,6 +28,11 @@ class Stage:
     warms_up: bool = False
 
     @property
+    def watched(self):
+        """The display that clients watch while the server is made to stop."""
+        return self.display if self.moment is Moment.STOPPING else "watched"
+
+    @property
     def is_mirroring(self):
         return self.display == "mirrors"
 
@@ -38,8 +43,9 @@ STAGES = [
     Stage("first frame", before=()),
     Stage("next frame", frames=(SECOND, FIRST)),
     Stage("other shape", frames=(LAYERED, FIRST)),
-    *(Stage(name, display=name) for name in scene.DISPLAYS if name != "watched"),
-    Stage("shut down", before=(SECOND, FIRST), moment=Moment.STOPPING),
+    *(Stage(name, display=name) for name in scene.DISPLAYS
+      if name not in ("watched", "large")),
+    Stage("shut down", display="large", moment=Moment.STOPPING),
 ]
 BY_NAME = {stage.name: stage for stage in STAGES}
 

@@ -13,6 +13,7 @@ from judge import Outcome
 from stages import Moment
 
 LOOK_S = 0.05
+SETUP_S = 120.0
 STOP_S = 15.0
 BUSY_S = 1.0  # of frames that go on coming while the server stops
 WATCHED = "watched"
@@ -48,8 +49,8 @@ class Trial:
             self.publishing = Publishing(
                 self.connection, self.notes,
                 lambda frame: scene.source(frame, self.stage.is_mirroring))
-            clients = [self.publishing,
-                       Watching(self.connection, self.notes, WATCHED, scene.WATCHED)]
+            clients = [self.publishing, *(Watching(self.connection, self.notes, display)
+                                          for display in {WATCHED, self.stage.watched})]
             try:
                 self._live(clients)
             finally:
@@ -61,15 +62,7 @@ class Trial:
 
     def _live(self, clients):
         if self.stage.before:
-            for client in clients:
-                client.start()
-        for frame in self.stage.before:
-            if not self._is_served(WATCHED, frame):
-                raise RuntimeError(f"no picture before the fault: {self.notes.refusals}"
-                                   f"{self.notes.wrong}\n{self.server.log()}")
-        if self.stage.moment is Moment.STOPPING:
-            self.publishing.frames = self.stage.frames
-            time.sleep(BUSY_S)
+            self._prepare(clients)
         counts = self.server.board.counts()
         if self.stage.moment is Moment.START:
             self.outcome.counts = counts
@@ -78,19 +71,38 @@ class Trial:
         if not self.stage.before:
             for client in clients:
                 client.start()
-        begun_s = time.monotonic()
-        is_served = self._warm_up() if self.stage.warms_up else True
-        if self.stage.moment is not Moment.STOPPING:
-            is_served = is_served and all(self._is_served(self.stage.display, frame)
-                                          for frame in self.stage.frames)
-        self.outcome.clean_s = self.outcome.clean_s or time.monotonic() - begun_s
+        if self.stage.moment is Moment.STOPPING:
+            self._stop()
+            self._count(counts)
+            return
+        self._serve()
         if self.stage.moment is Moment.SERVING:
             self._count(counts)
-        if is_served and self.server.board.fault_count() and self.outcome.again_s is None:
-            self.outcome.again_s = time.monotonic() - self.server.board.fault_s()
         self._stop()
+
+    def _prepare(self, clients):
+        """All that is served before the fault."""
+        for client in clients:
+            client.start()
+        for frame in self.stage.before:
+            if not self._is_served(self.stage.watched, frame, SETUP_S):
+                raise RuntimeError(f"no picture before the fault: {self.notes.refusals}"
+                                   f"{self.notes.wrong}\n{self.server.log()}")
         if self.stage.moment is Moment.STOPPING:
-            self._count(counts)
+            self.publishing.frames = self.stage.frames
+            time.sleep(BUSY_S)
+
+    def _serve(self):
+        """All that is to be served with the fault."""
+        outcome, board = self.outcome, self.server.board
+        begun_s = time.monotonic()
+        is_served = not self.stage.warms_up or self._warm_up()
+        is_served = is_served and all(
+            self._is_served(self.stage.display, frame, self.patience_s)
+            for frame in self.stage.frames)
+        outcome.clean_s = outcome.clean_s or time.monotonic() - begun_s
+        if is_served and board.fault_count() and outcome.again_s is None:
+            outcome.again_s = time.monotonic() - board.fault_s()
 
     def _count(self, before):
         after = self.server.board.counts()
@@ -102,10 +114,10 @@ class Trial:
             board.arm(self.fault.function, self.fault.number, self.fault.result,
                       self.fault.stays_lost)
 
-    def _is_served(self, display, frame):
+    def _is_served(self, display, frame, patience_s):
         """Whether that display and the watched one come to show that frame rightly."""
         self.publishing.frames = (frame,)
-        deadline_s = time.monotonic() + self.patience_s
+        deadline_s = time.monotonic() + patience_s
         had_failed = self.server.board.fault_count()
         while time.monotonic() < deadline_s and not self.notes.wrong:
             if self.server.process.poll() is not None:
