@@ -39,6 +39,8 @@ FORMS = (
           "these parts take hours; here they have to be in the list"),
     Short(("tests/README.md",), r"attack/main.py (\S+) --suite$",
           r"attack/main.py \1 --suite dns_rebinding ping", "all attacks take a minute"),
+    Short(("tests/README.md",), r"(vulkan_faults/layers) --suite$", r"\1 --calls --stage start",
+          "each fault has a server of its own"),
     Short(("client/publish.md", "client/watch.md"), r"--seconds 10\b", "--seconds 1",
           "one second is enough"),
     Short(("client/effects.md",), r"(--preset portrait) (--a.*|--reflections .*) --out",

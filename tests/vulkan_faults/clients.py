@@ -34,6 +34,16 @@ class Notes:
             self._newest[display] = atlas.header.capture_time_ns
             return atlas.header.capture_time_ns
 
+    def clear(self):
+        """Begins anew. What the displays show stays known."""
+        with self._lock:
+            self.wrong, self.refusals = [], []
+
+    def taken(self):
+        """Wrong pictures and refusals so far."""
+        with self._lock:
+            return list(self.wrong), list(self.refusals)
+
     def refuse(self, error):
         with self._lock:
             self.refusals.append(str(error))

@@ -44,12 +44,10 @@ class Outcome:
     exit_code: int = None
     was_stopping: bool = False # SIGTERM had come
     had_started: bool = True
-    stop_code: int = None      # after a SIGTERM at the end; None = it hangs
     wrong: list = field(default_factory=list)
     refusals: list = field(default_factory=list)
     log: str = ""
     counts: dict = field(default_factory=dict)  # calls by function
-    took_s: float = 0.0
 
     def kind(self):
         if not self.has_failed:
@@ -86,11 +84,10 @@ def found(outcome, limits):
         return result
     if outcome.end_s is not None:
         return result + found_in_end(outcome, limits)
-    if outcome.again_s is None and not outcome.wrong:
+    if outcome.was_stopping:
+        result.append("does not end at SIGTERM")
+    elif outcome.again_s is None and not outcome.wrong:
         result.append("half alive: neither served nor ended")
     elif outcome.again_s and outcome.again_s > limits.again_s + outcome.clean_s:
         result.append(f"served again only after {outcome.again_s:.1f} s")
-    if outcome.stop_code != 0:
-        result.append("does not end at SIGTERM" if outcome.stop_code is None
-                      else f"ended with {outcome.stop_code} at SIGTERM")
     return result

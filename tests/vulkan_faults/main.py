@@ -16,12 +16,13 @@ import sys
 
 import judge
 import plan
+import trial
 from pictures import Pictures
 from stages import BY_NAME, STAGES
 from trial import Trial
 
-HEADER = ("| stage | call that fails | outcome | after, s | verdict |\n"
-          "|---|---|---|---|---|")
+HEADER = ("| stage | call that fails | outcome | after, s | without it, s | verdict |\n"
+          "|---|---|---|---|---|---|")
 CLEAN_PATIENCE_S = 120.0
 
 
@@ -29,7 +30,7 @@ def row(outcome, found):
     after_s = outcome.end_s if outcome.end_s is not None else outcome.again_s
     after = "-" if after_s is None else f"{after_s:.2f}"
     return (f"| {outcome.stage} | {outcome.fault.text()} | {outcome.kind()} | {after} "
-            f"| {'; '.join(found) or 'ok'} |")
+            f"| {outcome.clean_s:.2f} | {'; '.join(found) or 'ok'} |")
 
 
 class Faults:
@@ -39,6 +40,7 @@ class Faults:
         self.words, self.limits = words, limits
         self.pictures = Pictures()
         self.clean = {}
+        self.life = None  # the server in use
         self.tally = collections.Counter()
         self.longest_s = collections.Counter()
         self.bad = 0
@@ -46,25 +48,51 @@ class Faults:
     def record(self, stage):
         """The stage without a fault."""
         if stage.name not in self.clean:
+            self.end_life()
             self.pictures.is_learning = True
-            outcome = Trial(self.words.viewloomd, self.words.layers, stage, self.pictures,
-                            patience_s=CLEAN_PATIENCE_S).outcome
+            life = self.be_born(stage)
+            outcome = Trial(life, patience_s=CLEAN_PATIENCE_S).outcome
             self.pictures.is_learning = False
-            if outcome.wrong or (outcome.stop_code, outcome.exit_code) not in ((0, None), (0, 0)):
+            if outcome.wrong or outcome.exit_code not in (None, 0):
                 raise RuntimeError(f"{stage.name} fails without a fault: {outcome}")
             self.clean[stage.name] = outcome
+            self.end_life()
         return self.clean[stage.name]
 
+    def be_born(self, stage, fault=None):
+        self.life = trial.born(self.words.viewloomd, self.words.layers, stage, self.pictures, fault)
+        return self.life
+
+    def end_life(self):
+        """Stops the server in use, which has to end in order."""
+        life, self.life = self.life, None
+        if life is None:
+            return
+        if life.server.is_alive():
+            code = life.stop()
+            if code != 0:
+                self.bad += 1
+                print(f"| {life.stage.name} | SIGTERM afterwards | exit {code} | - | - "
+                      "| did not end in order |", flush=True)
+        life.close()
+
     def reach(self, stage, fault):
-        """Its outcome. A call that is one of many does not come each time: then an earlier one."""
+        """Its outcome: on the server in use if that comes to such a call, or else on a new one. A
+        call that is one of many does not come each time: then an earlier one."""
         clean_s = self.record(stage).clean_s
         patience_s = self.limits.again_s + 2 * clean_s + 10
         while True:
-            outcome = Trial(self.words.viewloomd, self.words.layers, stage, self.pictures, fault,
-                            patience_s, clean_s).outcome
-            if outcome.has_failed or fault.number == 1:
-                return outcome
-            fault = dataclasses.replace(fault, number=(fault.number + 1) // 2)
+            is_new = self.life is None or self.life.stage != stage
+            if is_new:
+                self.end_life()
+                self.be_born(stage, fault)
+            one = Trial(self.life, fault, patience_s, clean_s)
+            if not one.is_reusable or not one.outcome.has_failed:
+                self.end_life()
+            if one.outcome.has_failed or (is_new and fault.number == 1):
+                return one.outcome
+            if is_new:
+                fault = dataclasses.replace(fault, number=(fault.number + 1) // 2)
 
     def plant(self, stage, fault):
         outcome = self.reach(stage, fault)
@@ -114,6 +142,7 @@ def run(words):
             for fault in plan.faults_in(faults.record(stage).counts):
                 if words.only in fault.text():
                     faults.plant(stage, fault)
+    faults.end_life()
     faults.say_end()
     return 1 if faults.bad else 0
 

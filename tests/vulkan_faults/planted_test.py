@@ -14,7 +14,7 @@ import registry
 from judge import Fault, Outcome
 from pictures import Pictures
 from stages import BY_NAME
-from trial import Trial
+from trial import Trial, born
 
 LOST = Fault("vkQueueSubmit2", 1, "VK_ERROR_DEVICE_LOST")
 SAID = ("2026-01-01T00:00:00.000+00:00 error the server cannot go on: the graphics device stopped "
@@ -24,12 +24,12 @@ SAID = ("2026-01-01T00:00:00.000+00:00 error the server cannot go on: the graphi
 def outcome(**changes):
     """A server that was served again, unless changed."""
     values = {"stage": "planted", "fault": LOST, "has_failed": True, "again_s": 0.5,
-              "clean_s": 1.0, "stop_code": 0, **changes}
+              "clean_s": 1.0, **changes}
     return Outcome(**values)
 
 
 def ended(code, **changes):
-    return outcome(**{"again_s": None, "stop_code": None, "end_s": 1.0, "exit_code": code,
+    return outcome(**{"again_s": None, "end_s": 1.0, "exit_code": code,
                       "log": SAID, **changes})
 
 
@@ -48,8 +48,7 @@ class Judged(unittest.TestCase):
         self.assertIn("not reached", self.found(outcome(has_failed=False)))
         self.assertIn("half alive", self.found(outcome(again_s=None)))
         self.assertIn("only after 3.5 s", self.found(outcome(again_s=3.5)))
-        self.assertIn("does not end", self.found(outcome(stop_code=None)))
-        self.assertIn("ended with 3 at SIGTERM", self.found(outcome(stop_code=3)))
+        self.assertIn("does not end", self.found(outcome(was_stopping=True, again_s=None)))
         self.assertIn("wrong", self.found(outcome(wrong=["wrong: a quilt"])))
         self.assertIn("wrong", self.found(ended(3, wrong=["wrong: a quilt"])))
         self.assertIn("ended with -11", self.found(ended(-11)))
@@ -91,19 +90,26 @@ class Lying(unittest.TestCase):
     def setUpClass(cls):
         cls.pictures = Pictures()
         cls.stage = BY_NAME["first frame"]
-        cls.clean = Trial(PROGRAM, LAYERS, cls.stage, cls.pictures, patience_s=120).outcome
+        cls.clean = cls.live(patience_s=120)
         cls.pictures.is_learning = False
+
+    @classmethod
+    def live(cls, **words):
+        life = born(PROGRAM, LAYERS, cls.stage, cls.pictures)
+        try:
+            return Trial(life, **words).outcome
+        finally:
+            life.close()
 
     def lie(self, function, number, patience_s):
         fault = Fault(function, number, "VK_SUCCESS")
-        told = Trial(PROGRAM, LAYERS, self.stage, self.pictures, fault, patience_s,
-                     self.clean.clean_s).outcome
+        told = self.live(fault=fault, patience_s=patience_s, clean_s=self.clean.clean_s)
         self.assertTrue(told.has_failed)
         return "; ".join(judge.found(told, judge.SUITE))
 
     def test_the_same_without_a_lie_is_in_order(self):
         self.assertEqual(self.clean.wrong, [])
-        self.assertEqual(self.clean.stop_code, 0)
+        self.assertIsNone(self.clean.exit_code)
         self.assertIn("vkQueueSubmit2", self.clean.counts)
 
     def test_a_wrong_picture_is_found(self):

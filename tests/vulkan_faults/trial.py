@@ -1,173 +1,99 @@
 # SPDX-License-Identifier: Apache-2.0
-"""One server, one stage, one fault or none."""
+"""One stage of a server's life, with one fault or none."""
 
-import signal
 import time
 
-import viewloom
-
-import scene
-from clients import STREAM, Notes, Publishing, Watching
-from faulted_server import FaultedServer
 from judge import Outcome
+from life import Life
 from stages import Moment
 
-LOOK_S = 0.05
-SETUP_S = 120.0
-STOP_S = 15.0
-BUSY_S = 1.0  # of frames that go on coming while the server stops
-WATCHED = "watched"
+
+def arm(board, fault):
+    if fault:
+        board.arm(fault.function, fault.number, fault.result, fault.stays_lost)
+
+
+def born(program, layer_folder, stage, pictures, fault=None):
+    """A server for that stage. If its start is the stage, its start has the fault."""
+    prepare = (lambda board: arm(board, fault)) if stage.moment is Moment.START else None
+    return Life(program, layer_folder, stage, pictures, prepare)
 
 
 class Trial:
     """Runs at once; its result is `outcome`. patience_s: how long a picture, or the end of a
-    process, is waited for."""
+    process, is waited for. The life may go on with another trial if `is_reusable`."""
 
-    def __init__(self, program, layer_folder, stage, pictures, fault=None, patience_s=20.0,
-                 clean_s=0.0):
-        self.stage, self.fault, self.patience_s = stage, fault, patience_s
-        self.notes = Notes(pictures)
-        self.outcome = Outcome(stage.name, fault, clean_s=clean_s)
-        begun_s = time.monotonic()
-        prepare = self._arm if stage.moment is Moment.START else None
-        self.server = FaultedServer(program, layer_folder, prepare, stage.warms_up)
-        try:
-            self._run()
-        finally:
-            self.server.close()
-        self.outcome.took_s = time.monotonic() - begun_s
-
-    def _run(self):
-        if self.server.address is None:
-            self.outcome.had_started = False
+    def __init__(self, life, fault=None, patience_s=20.0, clean_s=0.0):
+        self.life, self.stage, self.board = life, life.stage, life.board
+        self.patience_s = patience_s
+        self.outcome = Outcome(life.stage.name, fault, clean_s=clean_s)
+        life.notes.clear()
+        self._fault_count = 0
+        if life.connection:
+            life.prepare()
+            if self.stage.moment is not Moment.START:
+                self._fault_count = self.board.fault_count()
+            self._live()
         else:
-            self._meet_clients()
+            self.outcome.had_started = False
+            life.server.wait()
         self._note_end()
 
-    def _meet_clients(self):
-        with viewloom.connect(self.server.address, reconnect=False) as self.connection:
-            self.publishing = Publishing(
-                self.connection, self.notes,
-                lambda frame: scene.source(frame, self.stage.is_mirroring))
-            clients = [self.publishing, *(Watching(self.connection, self.notes, display)
-                                          for display in {WATCHED, self.stage.watched})]
-            try:
-                self._live(clients)
-            finally:
-                for client in clients:
-                    client.stop()
-                for client in clients:
-                    if client.is_alive():
-                        client.join(STOP_S)
+    @property
+    def is_reusable(self):
+        return (self.stage.moment is Moment.SERVING and bool(self.stage.before) and
+                self.life.server.is_alive() and not self.outcome.wrong and
+                (not self.outcome.has_failed or self.outcome.again_s is not None))
 
-    def _live(self, clients):
-        if self.stage.before:
-            self._prepare(clients)
-        counts = self.server.board.counts()
+    def _has_failed(self):
+        return self.board.fault_count() > self._fault_count
+
+    def _live(self):
+        before = self.board.counts()
         if self.stage.moment is Moment.START:
-            self.outcome.counts = counts
+            self.outcome.counts = before
         else:
-            self._arm(self.server.board)
-        if not self.stage.before:
-            for client in clients:
-                client.start()
+            arm(self.board, self.outcome.fault)
+        self.life.start_clients()
         if self.stage.moment is Moment.STOPPING:
-            self._stop()
-            self._count(counts)
-            return
-        self._serve()
-        if self.stage.moment is Moment.SERVING:
-            self._count(counts)
-        self._stop()
-
-    def _prepare(self, clients):
-        """All that is served before the fault."""
-        for client in clients:
-            client.start()
-        for frame in self.stage.before:
-            if not self._is_served(self.stage.watched, frame, SETUP_S):
-                raise RuntimeError(f"no picture before the fault: {self.notes.refusals}"
-                                   f"{self.notes.wrong}\n{self.server.log()}")
-        if self.stage.moment is Moment.STOPPING:
-            self.publishing.frames = self.stage.frames
-            time.sleep(BUSY_S)
+            self.outcome.was_stopping = True
+            self.life.stop(self.patience_s)
+        else:
+            self._serve()
+        self.board.disarm()
+        if self.stage.moment is not Moment.START:
+            after = self.board.counts()
+            self.outcome.counts = {name: count - before.get(name, 0)
+                                   for name, count in after.items() if count > before.get(name, 0)}
 
     def _serve(self):
-        """All that is to be served with the fault."""
-        outcome, board = self.outcome, self.server.board
+        """All that is to be served with the fault. If that fails, the process has time to end."""
         begun_s = time.monotonic()
-        is_served = not self.stage.warms_up or self._warm_up()
-        is_served = is_served and all(
-            self._is_served(self.stage.display, frame, self.patience_s)
-            for frame in self.stage.frames)
-        outcome.clean_s = outcome.clean_s or time.monotonic() - begun_s
-        if is_served and board.fault_count() and outcome.again_s is None:
-            outcome.again_s = time.monotonic() - board.fault_s()
+        is_served = not self.stage.warms_up or self.life.wait_for_kernels(6 * self.patience_s)
+        for frame in self.stage.frames:
+            had_failed = self._has_failed()
+            is_served = is_served and self.life.serve(self.stage.display, frame, self.patience_s)
+            if is_served and self._has_failed() and not had_failed:
+                self._note_again()
+        self.outcome.clean_s = self.outcome.clean_s or time.monotonic() - begun_s
+        if not is_served:
+            self.outcome.again_s = None
+            if self._has_failed() and not self.life.notes.wrong:
+                self.life.server.wait(self.patience_s)
+        elif self._has_failed() and self.outcome.again_s is None:
+            self._note_again()
 
-    def _count(self, before):
-        after = self.server.board.counts()
-        self.outcome.counts = {name: count - before.get(name, 0) for name, count in after.items()
-                               if count > before.get(name, 0)}
-
-    def _arm(self, board):
-        if self.fault:
-            board.arm(self.fault.function, self.fault.number, self.fault.result,
-                      self.fault.stays_lost)
-
-    def _is_served(self, display, frame, patience_s):
-        """Whether that display and the watched one come to show that frame rightly."""
-        self.publishing.frames = (frame,)
-        deadline_s = time.monotonic() + patience_s
-        had_failed = self.server.board.fault_count()
-        while time.monotonic() < deadline_s and not self.notes.wrong:
-            if self.server.process.poll() is not None:
-                return False
-            try:
-                atlas = self.connection.still(STREAM, scene.DISPLAYS[display],
-                                              encoding=scene.LOSSLESS, wait_for_stream=True,
-                                              timeout_s=deadline_s - time.monotonic())
-                is_shown = self.notes.see(display, atlas) == frame
-            except viewloom.ViewloomError as error:
-                self.notes.refuse(error)
-                is_shown = False
-            if is_shown and self.notes.shows(WATCHED, frame):
-                if self.server.board.fault_count() > had_failed:
-                    self.outcome.again_s = time.monotonic() - self.server.board.fault_s()
-                return True
-            time.sleep(LOOK_S)
-        return False
-
-    def _warm_up(self):
-        """Whether it has said that it is over, or that it gives up."""
-        deadline_s = time.monotonic() + 6 * self.patience_s
-        while time.monotonic() < deadline_s and self.server.is_alive():
-            if "compiled" in self.server.log():
-                return True
-            time.sleep(LOOK_S)
-        return False
-
-    def _stop(self):
-        """A server that ended by itself, or will, is given its time for that."""
-        outcome = self.outcome
-        is_stopping = self.stage.moment is Moment.STOPPING
-        has_fault = self.server.board.fault_count() and not self.notes.wrong
-        if not is_stopping and outcome.again_s is None and has_fault:
-            self.server.wait(self.patience_s)
-        if not self.server.is_alive():
-            return
-        outcome.was_stopping = is_stopping
-        self.server.process.send_signal(signal.SIGTERM)
-        outcome.stop_code = self.server.wait(max(STOP_S, self.patience_s))
+    def _note_again(self):
+        self.outcome.again_s = time.monotonic() - self.board.fault_s()
 
     def _note_end(self):
-        outcome, board = self.outcome, self.server.board
-        if not outcome.had_started:
-            self.server.wait()
-        outcome.has_failed = board.fault_count() > 0
-        outcome.wrong, outcome.refusals = self.notes.wrong, self.notes.refusals
-        outcome.log = self.server.log()
-        is_end = not outcome.had_started or outcome.stop_code is None or outcome.was_stopping
-        if is_end and not self.server.is_alive():
-            outcome.exit_code = self.server.process.returncode
-            since_s = board.fault_s() if outcome.has_failed else self.server.ended_s
-            outcome.end_s = self.server.ended_s - since_s
+        outcome, server = self.outcome, self.life.server
+        outcome.has_failed = self._has_failed()
+        outcome.wrong, outcome.refusals = self.life.notes.taken()
+        outcome.log = server.log()
+        if server.is_alive():
+            return
+        server.wait()
+        outcome.exit_code = server.process.returncode
+        outcome.end_s = server.ended_s - (self.board.fault_s() if outcome.has_failed
+                                          else server.ended_s)
