@@ -76,6 +76,10 @@ def found_in_end(outcome, limits):
     return found
 
 
+def is_late(outcome, limits):
+    return outcome.again_s is not None and outcome.again_s > limits.again_s + outcome.clean_s
+
+
 def found(outcome, limits):
     """All that is wrong; empty where the server did as it should."""
     result = list(outcome.wrong)
@@ -88,6 +92,6 @@ def found(outcome, limits):
         result.append("does not end at SIGTERM")
     elif outcome.again_s is None and not outcome.wrong:
         result.append("half alive: neither served nor ended")
-    elif outcome.again_s and outcome.again_s > limits.again_s + outcome.clean_s:
+    elif is_late(outcome, limits):
         result.append(f"served again only after {outcome.again_s:.1f} s")
     return result

@@ -96,6 +96,9 @@ class Faults:
 
     def plant(self, stage, fault):
         outcome = self.reach(stage, fault)
+        if judge.is_late(outcome, self.limits):  # twice, or others were using the machine
+            self.end_life()
+            outcome = self.reach(stage, outcome.fault)
         found = judge.found(outcome, self.limits)
         print(row(outcome, found), flush=True)
         if found and self.words.verbose:
