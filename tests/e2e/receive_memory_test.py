@@ -17,7 +17,7 @@ CLIENT = sys.argv.pop(1)
 PAGE_BYTES = 4096
 # Frames that warm the server up, and frames that are measured: in parts, whose median counts. On a
 # busy machine the server may once hold more frames than before, and that memory is new once.
-WARM_UP_FRAMES, PART_FRAMES, PARTS = 10, 8, 5
+WARM_UP_FRAMES, PART_FRAMES, PARTS = 10, 8, 9
 # The share of the pages a frame fills that may be new ones. With memory given back after every
 # message it was 0.4 to 0.8; kept, 0.003 to 0.02.
 NEW_SHARE_MAX = 0.1
