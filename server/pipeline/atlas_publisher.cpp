@@ -178,7 +178,9 @@ void AtlasPublisher::giveUp(AtlasRun& run, const absl::Status& status) {
 void AtlasPublisher::giveUpUnwatched() {
   std::vector<AtlasRunPtr> given_up;  // let go after the lock: their tickets may report
   {
-    std::lock_guard lock(mutex_);
+    // Its holder hands an atlas out, which may take a subscriber's time: the next look does it.
+    const std::unique_lock lock(mutex_, std::try_to_lock);
+    if (!lock.owns_lock()) return;
     const auto isWatched = [&](const AtlasOutput& output) {
       return links_.broadcaster.display(output.display->id) != nullptr;
     };

@@ -33,6 +33,7 @@ class AtlasPublisher {
   // Atlases behind it go on. Nothing happens to a run that is complete, or given up.
   void giveUp(AtlasRun& run, const absl::Status& status);
   // Gives up the runs whose displays nobody watches any more. `on_complete` is called for them.
+  // Never waits: some may be left to the next call.
   void giveUpUnwatched();
   // Gives up all runs; they stay until dropAll().
   void giveUpAll();
