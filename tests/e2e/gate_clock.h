@@ -2,10 +2,15 @@
 // A clock turned by hand at which one thread can be held up: it waits where it next asks.
 #pragma once
 
+#include <pthread.h>
+
+#include <array>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include "base/clock.h"
 
@@ -17,8 +22,8 @@ class GateClock final : public Clock {
   int64_t nowNs() const override {
     std::unique_lock lock(mutex_);
     const std::thread::id caller = std::this_thread::get_id();
-    if (holds_next_ && caller != holder_ && caller != sleeper_) {
-      holds_next_ = false;
+    if (!held_name_.empty() && held_name_ == nameOfCaller()) {
+      held_name_.clear();
       held_ = caller;
     }
     if (held_ == caller) {
@@ -32,11 +37,7 @@ class GateClock final : public Clock {
   }
 
   // It may be turned at any time, and wakes nobody.
-  std::chrono::nanoseconds napUntil(int64_t) const override {
-    std::lock_guard lock(mutex_);
-    sleeper_ = std::this_thread::get_id();
-    return std::chrono::milliseconds(1);
-  }
+  std::chrono::nanoseconds napUntil(int64_t) const override { return std::chrono::milliseconds(1); }
 
   void advance(int64_t by_ns) {
     std::lock_guard lock(mutex_);
@@ -51,11 +52,10 @@ class GateClock final : public Clock {
     std::lock_guard lock(mutex_);
     held_ = thread;
   }
-  // The next thread that asks for the time; neither the caller nor the one that sleeps by it.
-  void holdNext() {
+  // The thread of that name that asks for the time next (base/thread_name.h).
+  void holdNext(std::string name) {
     std::lock_guard lock(mutex_);
-    holds_next_ = true;
-    holder_ = std::this_thread::get_id();
+    held_name_ = std::move(name);
   }
   // Until the thread that is held asks for the time; false when it does not in that time.
   bool waitUntilHeld(std::chrono::milliseconds at_most = std::chrono::seconds(30)) const {
@@ -65,17 +65,21 @@ class GateClock final : public Clock {
   void letGo() {
     std::lock_guard lock(mutex_);
     held_ = {};
-    holds_next_ = false;
+    held_name_.clear();
     changed_.notify_all();
   }
 
  private:
+  static std::string nameOfCaller() {
+    std::array<char, 16> name{};  // as long as Linux keeps one
+    pthread_getname_np(pthread_self(), name.data(), name.size());
+    return name.data();
+  }
+
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   mutable bool is_waiting_ = false;
-  mutable bool holds_next_ = false;
-  mutable std::thread::id sleeper_;
-  std::thread::id holder_;
+  mutable std::string held_name_;
   mutable std::thread::id held_;
   mutable int64_t now_ns_ = 1;
   int64_t per_question_ns_ = 0;

@@ -53,7 +53,7 @@ class PipelineRetimingTest : public TicksFixture {
     // Ticks are skipped until the first atlas is off the loops.
     bool is_held = false;
     for (; held_tick_ < kTicksMax && !is_held; ++held_tick_) {
-      clock_.holdNext();
+      clock_.holdNext("retime");
       clock_.advance(kTick_ns);
       is_held = clock_.waitUntilHeld(std::chrono::milliseconds(300));
     }
