@@ -117,7 +117,10 @@ absl::StatusOr<MadeLink> makeLink(const WebContext& context, const HttpRequest& 
   VIEWLOOM_RETURN_IF_ERROR(seconds.status());
   const auto link = context.access.sign(*caller, targetOf(address->request), *seconds);
   VIEWLOOM_RETURN_IF_ERROR(link.status());
-  const std::string& plain = address->redirect.empty() ? target->second : address->redirect;
+  // What stands after '#' is no part of the address, and the link would stand in it.
+  const std::string plain = address->redirect.empty()
+                                ? target->second.substr(0, target->second.find('#'))
+                                : address->redirect;
   return MadeLink{.url = withParameter(plain, kLinkParameter, link->signature),
                   .expires_s = link->expires_s};
 }
@@ -175,8 +178,7 @@ absl::StatusOr<QuotaPartPtr> holdDisplay(const WebContext& context, const Caller
 HttpReply answerLink(const WebContext& context, const HttpRequest& request, const Url& url) {
   const absl::StatusOr<MadeLink> link = makeLink(context, request, kApiLink, url.parameters);
   if (!link.ok()) return errorReply(link.status());
-  return jsonReply(
-      nlohmann::json{{"url", link->url}, {"expires", utcText(link->expires_s)}}.dump());
+  return jsonReply({{"url", link->url}, {"expires", utcText(link->expires_s)}});
 }
 
 HttpReply answerQr(const WebContext& context, const HttpRequest& request, const Url& url) {

@@ -24,6 +24,19 @@ std::string plainName(std::string_view file_name) {
   return plain;
 }
 
+// The library throws where a text is no UTF-8, unless it may replace it.
+std::string textOf(const nlohmann::json& value) {
+  return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+HttpReply replyWithJson(std::string text) {
+  HttpReply reply;
+  reply.type = "application/json";
+  reply.headers = {{"Cache-Control", "no-store"}};
+  reply.text = std::move(text);
+  return reply;
+}
+
 }  // namespace
 
 size_t bodyBytes(const HttpReply& reply) {
@@ -66,16 +79,11 @@ std::string errorJson(const absl::Status& status) {
                                  {{"code", absl::StatusCodeToString(status.code())},
                                   {"field", fieldOf(status)},
                                   {"message", std::string(status.message())}}}};
-  // Foreign text in a message may be no UTF-8.
-  return error.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return textOf(error);
 }
 
-HttpReply jsonReply(std::string text) {
-  HttpReply reply;
-  reply.type = "application/json";
-  reply.headers = {{"Cache-Control", "no-store"}};
-  reply.text = std::move(text);
-  return reply;
+HttpReply jsonReply(const nlohmann::json& value) {
+  return replyWithJson(textOf(value));
 }
 
 HttpReply errorReply(const absl::Status& status) {
@@ -83,7 +91,7 @@ HttpReply errorReply(const absl::Status& status) {
 }
 
 HttpReply errorReply(unsigned http_status, const absl::Status& status) {
-  HttpReply reply = jsonReply(errorJson(status) + "\n");
+  HttpReply reply = replyWithJson(errorJson(status) + "\n");
   reply.status = http_status;
   if (http_status == 401) reply.headers.emplace_back("WWW-Authenticate", "Bearer");
   return reply;

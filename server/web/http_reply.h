@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "base/byte_pool.h"
 #include "base/status.h"
 #include "web/watch_request.h"
@@ -39,7 +41,8 @@ unsigned httpStatusOf(absl::StatusCode code);
 // {"error": {"code": "INVALID_ARGUMENT", "field": "columns", "message": "columns: got ..."}}
 std::string errorJson(const absl::Status& status);
 
-HttpReply jsonReply(std::string json);
+// Text that is no UTF-8 is replaced: it may come from a client.
+HttpReply jsonReply(const nlohmann::json& value);
 HttpReply errorReply(const absl::Status& status);
 HttpReply errorReply(unsigned http_status, const absl::Status& status);
 HttpReply redirectReply(std::string location);

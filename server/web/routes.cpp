@@ -97,11 +97,11 @@ HttpReply notFoundReply(const std::string& path) {
 HttpReply listReply(const WebContext& context, const Caller& caller, const std::string& path) {
   if (path == kMetricsPage) return metricsReply(context);
   if (path == kApiStreams) {
-    return jsonReply(streamsJson(context.streams, context.broadcaster, caller).dump());
+    return jsonReply(streamsJson(context.streams, context.broadcaster, caller));
   }
-  if (path == kApiDisplays) return jsonReply(displaysJson(context.broadcaster, caller).dump());
-  if (path == kApiPresets) return jsonReply(presetsJson().dump());
-  if (path == kApiFields) return jsonReply(fieldsJson().dump());
+  if (path == kApiDisplays) return jsonReply(displaysJson(context.broadcaster, caller));
+  if (path == kApiPresets) return jsonReply(presetsJson());
+  if (path == kApiFields) return jsonReply(fieldsJson());
   return notFoundReply(path);  // operations of gRPC have paths, too
 }
 

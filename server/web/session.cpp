@@ -49,7 +49,7 @@ HttpReply identityReply(const AccessControl& access, const Identity& identity) {
     for (const Role role : identity.rights.roles) object["roles"].push_back(wordOf(role));
     if (identity.expires_s) object["expires"] = utcText(*identity.expires_s);
   }
-  return jsonReply(object.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  return jsonReply(object);
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ bool offersProtocol(const HttpRequest& request) {
 
 HttpReply answerSession(const WebContext& context, const HttpRequest& request) {
   if (request.method == "DELETE") {
-    HttpReply reply = jsonReply("{}");
+    HttpReply reply = jsonReply(nlohmann::json::object());
     reply.headers.emplace_back("Set-Cookie", cookieOf(request, "", "; Max-Age=0"));
     return reply;
   }

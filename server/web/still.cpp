@@ -27,9 +27,8 @@ HttpReply jpegReply(const EncodedAtlas& atlas) {
 }
 
 HttpReply stillReply(const EncodedAtlas& atlas, const QuiltAddress& address) {
-  HttpReply reply = address.extension == kLayoutExtension
-                        ? jsonReply(layoutJson(*atlas.layout).dump())
-                        : jpegReply(atlas);
+  HttpReply reply = address.extension == kLayoutExtension ? jsonReply(layoutJson(*atlas.layout))
+                                                          : jpegReply(atlas);
   reply.headers.emplace_back("Content-Disposition", contentDisposition(address.file_name));
   return reply;
 }

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 namespace viewloom::http_reply_test {
 namespace {
 
@@ -23,6 +25,13 @@ TEST(ContentDisposition, leavesNothingThatEndsTheHeaderOrThePathOrHidesTheFile) 
   EXPECT_EQ(contentDisposition("a\\b%c;d"),
             "inline; filename=\"a_b_c_d\"; filename*=UTF-8''a%5cb%25c%3bd");
   EXPECT_EQ(contentDisposition(""), "inline; filename=\"_\"; filename*=UTF-8''");
+}
+
+// A reply that cannot be written would end the server.
+TEST(JsonReply, holdsTextsOfAnyBytes) {
+  const HttpReply reply = jsonReply({{"url", "a\xff"}});
+  EXPECT_EQ(nlohmann::json::parse(reply.text)["url"], "a\xef\xbf\xbd");
+  EXPECT_EQ(reply.type, "application/json");
 }
 
 }  // namespace

@@ -154,6 +154,14 @@ TEST_F(Session, makesLinksForOnePicture) {
   EXPECT_THAT(other->address.redirect, HasSubstr("link="));
 }
 
+TEST_F(Session, makesLinksForAddressesOfAnyBytes) {
+  const HttpReply reply = link("/still/room.1_qs8x6a0.75.jpg?preset=portrait#\xff?x");
+  ASSERT_EQ(reply.status, 200U) << reply.text;
+  const std::string url = nlohmann::json::parse(reply.text)["url"];
+  EXPECT_THAT(url, testing::StartsWith("/still/room.1_qs8x6a0.75.jpg?preset=portrait&link="));
+  EXPECT_TRUE(open(url).ok()) << open(url).status();
+}
+
 TEST_F(Session, makesNoOtherLinks) {
   EXPECT_EQ(link("/still/hall/portrait").status, 403U);
   EXPECT_EQ(link("/still/room.2/portrait").status, 404U);
