@@ -109,7 +109,8 @@ HttpRequest Connection::requestOf(const http::request<http::empty_body>& request
           .page = {.origin = text(request[http::field::origin]),
                    .referer = text(request[http::field::referer]),
                    .fetch_site = text(request["Sec-Fetch-Site"]),
-                   .fetch_mode = text(request["Sec-Fetch-Mode"])},
+                   .fetch_mode = text(request["Sec-Fetch-Mode"]),
+                   .fetch_dest = text(request["Sec-Fetch-Dest"])},
           .is_encrypted = context_.options.tls || request["X-Forwarded-Proto"] == "https",
           .upgrade = websocket::is_upgrade(request)};
 }

@@ -78,7 +78,8 @@ absl::Status HostPolicy::checkWebSocket(const PageHeaders& page, std::string_vie
 
 absl::Status HostPolicy::checkPage(const PageHeaders& page) const {
   const bool is_foreign = page.fetch_site == "cross-site" || page.fetch_site == "same-site";
-  if (!is_foreign || page.fetch_mode == "navigate" || !allowedOrigin(page).empty()) {
+  const bool follows_link = page.fetch_mode == "navigate" && page.fetch_dest == "document";
+  if (!is_foreign || follows_link || !allowedOrigin(page).empty()) {
     return absl::OkStatus();
   }
   const std::string name = page.origin.empty() ? originOf(page.referer) : page.origin;

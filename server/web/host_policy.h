@@ -15,7 +15,9 @@ struct PageHeaders {
   std::string origin;
   std::string referer;
   std::string fetch_site;  // Sec-Fetch-Site: "same-origin", "cross-site", ...
-  std::string fetch_mode;  // Sec-Fetch-Mode: "navigate" where the user follows a link
+  std::string fetch_mode;  // Sec-Fetch-Mode: "navigate" for links, and for frames
+  std::string
+      fetch_dest;  // Sec-Fetch-Dest: "document" for a link; "iframe", "object", "image", ...
 };
 
 // Any web page can make its visitor's browser reach this server: under its address, or under a name
@@ -33,7 +35,8 @@ class HostPolicy {
   absl::Status checkHost(std::string_view host) const;
   // PERMISSION_DENIED for WebSockets and sign-ins of foreign pages.
   absl::Status checkWebSocket(const PageHeaders& page, std::string_view host) const;
-  // PERMISSION_DENIED where a foreign page embeds or fetches something. A link may lead here.
+  // PERMISSION_DENIED where a foreign page embeds or fetches something, also in a frame. A link may
+  // lead here.
   absl::Status checkPage(const PageHeaders& page) const;
   // The one of `allowed_origins` that the page belongs to; "" if it belongs to none.
   std::string allowedOrigin(const PageHeaders& page) const;

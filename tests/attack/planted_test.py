@@ -190,7 +190,7 @@ class Planted(unittest.TestCase):
             found = web_floods.dns_rebinding(address, budget.SHORT)
             refused = web_floods.broken_json(address, budget.SHORT)
             trusting.shutdown()
-        self.assertEqual(len(found), 14)
+        self.assertEqual(len(found), 15)  # each with a reason of its own
         self.assertIn("the WebSocket was refused", refused)
 
 

@@ -45,6 +45,10 @@ def dns_rebinding(address, _budget):
     status = status_of(address, "/still/healthy/portrait", embedded)
     if status != 403:
         found.append(f"a still inside a foreign page: {status} instead of 403")
+    framed = {**embedded, "Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "iframe"}
+    status = status_of(address, "/still/healthy/portrait", framed)
+    if status != 403:
+        found.append(f"a still in a frame of a foreign page: {status} instead of 403")
     return found
 
 

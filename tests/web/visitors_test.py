@@ -41,7 +41,9 @@ class Visitors(PaintedCase):
         target = "/still/painted_qs4x2a1.jpg?width=320&height=160"
         foreign = {"Sec-Fetch-Site": "cross-site", "Sec-Fetch-Mode": "no-cors"}
         self.assertEqual(fetch(self.port, target, headers=foreign).status, 403)
-        foreign["Sec-Fetch-Mode"] = "navigate"
+        foreign.update({"Sec-Fetch-Mode": "navigate", "Sec-Fetch-Dest": "iframe"})
+        self.assertEqual(fetch(self.port, target, headers=foreign).status, 403)
+        foreign["Sec-Fetch-Dest"] = "document"
         reply = fetch(self.port, target, headers=foreign)
         self.assertEqual(reply.status, 200, reply.body)
         self.assertEqual(reply.headers["cross-origin-resource-policy"], "same-origin")

@@ -50,8 +50,12 @@ TEST(HostPolicy, letsNoForeignPageEmbedPictures) {
   }
   for (const char* site : {"same-site", "cross-site"}) {
     EXPECT_EQ(fieldOf(policy().checkPage({.fetch_site = site, .fetch_mode = "no-cors"})), "origin");
-    EXPECT_TRUE(policy().checkPage({.fetch_site = site, .fetch_mode = "navigate"}).ok())
-        << "a link";
+    PageHeaders moved{.fetch_site = site, .fetch_mode = "navigate", .fetch_dest = "document"};
+    EXPECT_TRUE(policy().checkPage(moved).ok()) << "a link";
+    for (const char* frame : {"iframe", "frame", "object", "embed"}) {
+      moved.fetch_dest = frame;
+      EXPECT_EQ(fieldOf(policy().checkPage(moved)), "origin") << frame;
+    }
     EXPECT_TRUE(
         policy().checkPage({.referer = "https://show.example/page", .fetch_site = site}).ok());
   }
