@@ -68,7 +68,17 @@ void RateMeter::note(double amount, double per_s, int64_t now_ns) {
 
 bool RateMeter::isOver(double per_s, int64_t now_ns) {
   drain(per_s, now_ns);
-  return level_ > per_s * double(QuotaLedger::kBurst_s);
+  const bool is_over = level_ > per_s * double(QuotaLedger::kBurst_s);
+  if (!is_over) excused_ = 0;
+  return is_over;
+}
+
+bool RateMeter::isOverAgain(double per_s, int64_t now_ns) {
+  return isOver(per_s, now_ns) && level_ > excused_;
+}
+
+void RateMeter::excuse(double per_s) {
+  excused_ = level_ + per_s * double(QuotaLedger::kBurst_s);
 }
 
 bool RateMeter::isEmpty(double per_s, int64_t now_ns) {
@@ -157,24 +167,27 @@ void QuotaAccount::noteAtlas(const std::string& key, uint64_t sequence, uint64_t
 }
 
 absl::Status QuotaAccount::checkRate(RateMeter& meter, const std::optional<uint64_t>& per_s,
-                                     const char* limit, const char* unit, bool forgets) {
+                                     const char* limit, const char* unit, RateCheck check) {
   const int64_t now_ns = clock_.nowNs();
-  if (!per_s || !meter.isOver(double(*per_s), now_ns)) return absl::OkStatus();
+  if (!per_s) return absl::OkStatus();
+  const bool ends = check == RateCheck::kEnds;
+  const bool is_over =
+      ends ? meter.isOverAgain(double(*per_s), now_ns) : meter.isOver(double(*per_s), now_ns);
+  if (!is_over) return absl::OkStatus();
   const absl::Status refusal = absl::ResourceExhaustedError(
       strCat(absl::StrFormat("%.0f", meter.used()), " ", unit, " were used within ",
              absl::StrFormat("%.1f", kNanosecond_s * double(now_ns - meter.sinceNs())),
              " s; accepted are ", *per_s, " a second ", limitText(limit),
              ". Send or ask for smaller pictures, or fewer a second. ", kOperator));
-  if (forgets) meter.restart();
+  if (ends) meter.excuse(double(*per_s));
   return refusal;
 }
 
-absl::Status QuotaAccount::checkRates(const Quota& quota, bool forgets) {
+absl::Status QuotaAccount::checkRates(const Quota& quota, RateCheck check) {
   std::lock_guard lock(mutex_);
   quota_ = quota;
-  VIEWLOOM_RETURN_IF_ERROR(
-      checkRate(pixels_, quota.pixels_per_s, "pixels_per_s", "pixels", forgets));
-  return checkRate(bytes_, quota.bytes_per_s, "bytes_per_s", "bytes", forgets);
+  VIEWLOOM_RETURN_IF_ERROR(checkRate(pixels_, quota.pixels_per_s, "pixels_per_s", "pixels", check));
+  return checkRate(bytes_, quota.bytes_per_s, "bytes_per_s", "bytes", check);
 }
 
 bool QuotaAccount::isIdle() {

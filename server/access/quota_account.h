@@ -20,7 +20,10 @@ class RateMeter {
   // Whether more than the rate, and QuotaLedger::kBurst_s seconds of it at once, was used.
   bool isOver(double per_s, int64_t now_ns);
   bool isEmpty(double per_s, int64_t now_ns);
-  void restart() { *this = {}; }
+  // Whether it is over, and as much again was used since the last time that it was excused. What is
+  // excused stays used.
+  bool isOverAgain(double per_s, int64_t now_ns);
+  void excuse(double per_s);
 
   // Amount since the meter was empty last, and when that was.
   double used() const { return used_; }
@@ -29,10 +32,17 @@ class RateMeter {
  private:
   void drain(double per_s, int64_t now_ns);
 
-  double level_ = 0;  // above the rate
+  double level_ = 0;    // above the rate
+  double excused_ = 0;  // up to this level; 0 = it was not over since
   double used_ = 0;
   int64_t since_ns_ = 0;
   int64_t drained_ns_ = 0;
+};
+
+// What happens to a call that comes, or that lives, when a rate is exceeded.
+enum class RateCheck : uint8_t {
+  kRefuses,  // it does not begin
+  kEnds      // it ends, and others live on
 };
 
 // Thread-safety: all methods may be called from any thread.
@@ -46,7 +56,7 @@ class QuotaAccount {
   absl::Status holdDisplay(const Quota& quota, const DisplayUse& use, const QuotaPart* replaced);
   std::string takeConnectionKey();
   void noteBytes(const Quota& quota, uint64_t bytes);
-  absl::Status checkRates(const Quota& quota, bool forgets);
+  absl::Status checkRates(const Quota& quota, RateCheck check);
   // Nothing is held, and nothing is left of what was used.
   bool isIdle();
 
@@ -66,7 +76,7 @@ class QuotaAccount {
                           const QuotaPart* replaced);
   absl::Status checkPixels(const Quota& quota, const DisplayUse& use, const QuotaPart* replaced);
   absl::Status checkRate(RateMeter& meter, const std::optional<uint64_t>& per_s, const char* limit,
-                         const char* unit, bool forgets);
+                         const char* unit, RateCheck check);
   // The display that goes with `replaced`; null if others hold it, too.
   const Held* goingWith(const QuotaPart* replaced);
   std::string limitText(const char* limit) const;

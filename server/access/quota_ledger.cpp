@@ -76,12 +76,14 @@ void QuotaLedger::noteBytes(const Identity& identity, uint64_t bytes) {
 
 absl::Status QuotaLedger::checkRates(const Identity& identity) {
   const std::shared_ptr<QuotaAccount> account = accountOf(identity);
-  return account == nullptr ? absl::OkStatus() : account->checkRates(identity.rights.quota, false);
+  return account == nullptr ? absl::OkStatus()
+                            : account->checkRates(identity.rights.quota, RateCheck::kRefuses);
 }
 
 absl::Status QuotaLedger::endIfOver(const Identity& identity) {
   const std::shared_ptr<QuotaAccount> account = accountOf(identity);
-  return account == nullptr ? absl::OkStatus() : account->checkRates(identity.rights.quota, true);
+  return account == nullptr ? absl::OkStatus()
+                            : account->checkRates(identity.rights.quota, RateCheck::kEnds);
 }
 
 }  // namespace viewloom

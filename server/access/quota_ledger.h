@@ -73,8 +73,8 @@ class QuotaLedger {
   void noteBytes(const Identity& identity, uint64_t bytes);
   // Whether the identity keeps to its rates.
   absl::Status checkRates(const Identity& identity);
-  // The same for a call that ends if it does not. What was used before that is forgotten, so that
-  // other calls of the identity stay.
+  // The same for a call that ends if it does not. Its other calls stay, until as much again was
+  // used; new ones wait until the rate has fallen.
   absl::Status endIfOver(const Identity& identity);
 
  private:

@@ -128,6 +128,25 @@ TEST_F(QuotaLedgerTest, endsOneCallForWhatAllHaveUsed) {
   ledger_.noteBytes(identity, 1'000'000);
   EXPECT_FALSE(ledger_.endIfOver(identity).ok());
   EXPECT_TRUE(ledger_.endIfOver(identity).ok());
+  ledger_.noteBytes(identity, 1000 * QuotaLedger::kBurst_s);
+  EXPECT_TRUE(ledger_.endIfOver(identity).ok());
+  ledger_.noteBytes(identity, 1);
+  EXPECT_FALSE(ledger_.endIfOver(identity).ok());
+}
+
+// Else whoever ends a call could use more at once by a new one.
+TEST_F(QuotaLedgerTest, letsNoCallBeginUntilTheRateHasFallen) {
+  const Identity identity = identityOf("camera", {.bytes_per_s = 1000});
+  ledger_.noteBytes(identity, 20'000);
+  EXPECT_FALSE(ledger_.endIfOver(identity).ok());
+  EXPECT_FALSE(ledger_.checkRates(identity).ok());
+  clock_.advance(14 * kSecond_ns);
+  EXPECT_FALSE(ledger_.checkRates(identity).ok());
+  EXPECT_TRUE(ledger_.endIfOver(identity).ok()) << "others stay meanwhile";
+  clock_.advance(kSecond_ns);
+  EXPECT_TRUE(ledger_.checkRates(identity).ok());
+  ledger_.noteBytes(identity, 1);
+  EXPECT_FALSE(ledger_.endIfOver(identity).ok());
 }
 
 TEST_F(QuotaLedgerTest, countsAnAtlasOnceForAllWhoSeeIt) {
