@@ -2,6 +2,7 @@
 #include "containment/call_filter.h"
 
 #include <fcntl.h>
+#include <netinet/in.h>
 #include <sched.h>
 #include <seccomp.h>
 #include <signal.h>
@@ -81,13 +82,35 @@ scmp_arg_cmp argument(unsigned index, uint64_t value, uint64_t mask = kLow32) {
   return {.arg = index, .op = SCMP_CMP_MASKED_EQ, .datum_a = mask, .datum_b = value};
 }
 
-// Streams that others connect to, on the network or this machine.
+// Streams that others connect to, on the network or this machine. Other protocols are not bound to
+// ports by landlock.
 void addSockets(Filter& filter) {
   constexpr uint64_t kKind = 0xf;  // without SOCK_CLOEXEC and SOCK_NONBLOCK
+  const scmp_arg_cmp is_stream = argument(1, SOCK_STREAM, kKind);
   for (const uint64_t family : {uint64_t{AF_INET}, uint64_t{AF_INET6}, uint64_t{AF_UNIX}}) {
-    filter.add(SCMP_ACT_ALLOW, "socket", {argument(0, family), argument(1, SOCK_STREAM, kKind)});
+    filter.add(SCMP_ACT_ALLOW, "socket", {argument(0, family), is_stream, argument(2, 0)});
   }
-  filter.add(SCMP_ACT_ALLOW, "socketpair", {argument(0, AF_UNIX)});
+  for (const uint64_t family : {uint64_t{AF_INET}, uint64_t{AF_INET6}}) {
+    filter.add(SCMP_ACT_ALLOW, "socket",
+               {argument(0, family), is_stream, argument(2, IPPROTO_TCP)});
+  }
+  // Datagrams of a pair could go to any other socket.
+  filter.add(SCMP_ACT_ALLOW, "socketpair", {argument(0, AF_UNIX), is_stream});
+  // TCP Fast Open connects while it sends.
+  const auto connects_not = [](unsigned flags) { return argument(flags, 0, MSG_FASTOPEN); };
+  filter.add(SCMP_ACT_ALLOW, "sendto", {connects_not(3)});
+  filter.add(SCMP_ACT_ALLOW, "sendmsg", {connects_not(2)});
+  filter.add(SCMP_ACT_ALLOW, "sendmmsg", {connects_not(3)});
+}
+
+// All commands but those that name a process to be signalled, which lie between 7 and 32.
+void addDescriptorCommands(Filter& filter) {
+  constexpr uint64_t kOpenFileLocks = 32;
+  constexpr uint64_t kOfLinux = 1024;
+  filter.add(SCMP_ACT_ALLOW, "fcntl", {argument(1, 0, kLow32 & ~uint64_t{7})});
+  for (const uint64_t bit : {kOpenFileLocks, kOfLinux}) {
+    filter.add(SCMP_ACT_ALLOW, "fcntl", {argument(1, bit, bit)});
+  }
 }
 
 void addThreads(Filter& filter) {
@@ -125,6 +148,7 @@ absl::Status refuseOtherCalls() {
   for (const char* name : kDeadlyCalls) filter.add(SCMP_ACT_KILL_PROCESS, name);
   for (const char* name : kMissingCalls) filter.add(SCMP_ACT_ERRNO(ENOSYS), name);
   addSockets(filter);
+  addDescriptorCommands(filter);
   addThreads(filter);
   addControls(filter);
   answerRefusedCalls();

@@ -25,12 +25,12 @@ inline constexpr const char* kAllowedCalls[] = {
     "times",
     // Files, as far as landlock lets them be.
     "access", "close", "close_range", "copy_file_range", "dup", "dup2", "dup3", "faccessat",
-    "faccessat2", "fadvise64", "fallocate", "fchmod", "fcntl", "fdatasync", "flock", "fstat",
-    "fstatfs", "fsync", "ftruncate", "getcwd", "getdents", "getdents64", "lseek", "lstat", "mkdir",
-    "mkdirat", "newfstatat", "open", "openat", "pread64", "preadv", "preadv2", "pwrite64",
-    "pwritev", "pwritev2", "read", "readahead", "readlink", "readlinkat", "readv", "rename",
-    "renameat", "renameat2", "rmdir", "sendfile", "stat", "statfs", "statx", "umask", "unlink",
-    "unlinkat", "utimensat", "write", "writev",
+    "faccessat2", "fadvise64", "fallocate", "fchmod", "fdatasync", "flock", "fstat", "fstatfs",
+    "fsync", "ftruncate", "getcwd", "getdents", "getdents64", "lseek", "lstat", "mkdir", "mkdirat",
+    "newfstatat", "open", "openat", "pread64", "preadv", "preadv2", "pwrite64", "pwritev",
+    "pwritev2", "read", "readahead", "readlink", "readlinkat", "readv", "rename", "renameat",
+    "renameat2", "rmdir", "sendfile", "stat", "statfs", "statx", "umask", "unlink", "unlinkat",
+    "utimensat", "write", "writev",
     // Changes of files that are read anew.
     "inotify_add_watch", "inotify_init1", "inotify_rm_watch",
     // Waiting.
@@ -39,7 +39,7 @@ inline constexpr const char* kAllowedCalls[] = {
     "select",
     // Connections that others open.
     "accept", "accept4", "bind", "getpeername", "getsockname", "getsockopt", "listen", "recvfrom",
-    "recvmmsg", "recvmsg", "sendmmsg", "sendmsg", "sendto", "setsockopt", "shutdown",
+    "recvmmsg", "recvmsg", "setsockopt", "shutdown",
     // The process and the machine.
     "arch_prctl", "getegid", "geteuid", "getgid", "getgroups", "getpgrp", "getpid", "getppid",
     "getrandom", "getresgid", "getresuid", "getrlimit", "getrusage", "getuid", "kcmp", "sysinfo",

@@ -57,7 +57,9 @@ TEST(CallFilter, refusesOtherKindsOfSockets) {
   expectFiltered([] {
     return isSocketRefused(AF_INET, SOCK_DGRAM) && isSocketRefused(AF_INET6, SOCK_RAW) &&
            isSocketRefused(AF_NETLINK, SOCK_RAW) && isSocketRefused(AF_PACKET, SOCK_RAW) &&
-           isSocketRefused(AF_VSOCK, SOCK_STREAM) && isSocketRefused(AF_UNIX, SOCK_DGRAM);
+           isSocketRefused(AF_VSOCK, SOCK_STREAM) && isSocketRefused(AF_UNIX, SOCK_DGRAM) &&
+           isRefused(socket(AF_INET, SOCK_STREAM, IPPROTO_MPTCP)) &&
+           socket(AF_INET6, SOCK_STREAM, IPPROTO_TCP) >= 0;
   });
 }
 
@@ -68,6 +70,50 @@ TEST(CallFilter, callsNobody) {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     return isRefused(connect(socket(AF_INET, SOCK_STREAM, 0),
                              reinterpret_cast<const sockaddr*>(&address), sizeof address));
+  });
+}
+
+// TCP Fast Open connects without a call of connect().
+TEST(CallFilter, sendsOnlyToThoseWhoHaveConnected) {
+  expectFiltered([] {
+    const int listener = socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address{};
+    socklen_t size = sizeof address;
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    auto* const place = reinterpret_cast<sockaddr*>(&address);
+    const bool listens = bind(listener, place, size) == 0 && listen(listener, 1) == 0 &&
+                         getsockname(listener, place, &size) == 0;
+    char letter = 'x';
+    iovec bytes{.iov_base = &letter, .iov_len = 1};
+    mmsghdr message{};
+    message.msg_hdr.msg_name = place;
+    message.msg_hdr.msg_namelen = size;
+    message.msg_hdr.msg_iov = &bytes;
+    message.msg_hdr.msg_iovlen = 1;
+    const int tcp = socket(AF_INET, SOCK_STREAM, 0);
+    return listens && isRefused(sendto(tcp, &letter, 1, MSG_FASTOPEN, place, size)) &&
+           isRefused(sendmsg(tcp, &message.msg_hdr, MSG_FASTOPEN)) &&
+           isRefused(sendmmsg(tcp, &message, 1, MSG_FASTOPEN));
+  });
+}
+
+TEST(CallFilter, leavesPairsOfStreamsButNotOfDatagrams) {
+  expectFiltered([] {
+    int pair[2] = {-1, -1};
+    return socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pair) == 0 &&
+           send(pair[0], "x", 1, MSG_NOSIGNAL) == 1 &&
+           isRefused(socketpair(AF_UNIX, SOCK_DGRAM, 0, pair));
+  });
+}
+
+TEST(CallFilter, letsNoDescriptorSignalOthers) {
+  expectFiltered([] {
+    const int file = open("/dev/null", O_RDWR);
+    constexpr unsigned long kHighBits = 1UL << 40;
+    return fcntl(file, F_SETFL, O_NONBLOCK) == 0 && fcntl(file, F_DUPFD_CLOEXEC, 0) >= 0 &&
+           isRefused(fcntl(file, F_SETOWN, getppid())) &&
+           isRefused(syscall(SYS_fcntl, file, kHighBits | F_SETOWN, getppid()));
   });
 }
 
