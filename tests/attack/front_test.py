@@ -92,6 +92,8 @@ class BehindAFront(unittest.TestCase):
                 ("/viewloom/", front.HOST, "POST", {"haproxy": 405, "nginx": 403}[KIND]),
                 ("/", front.HOST, "GET", 404), ("/api/streams", front.HOST, "GET", 404),
                 ("/viewloom/metrics", front.HOST, "GET", 404),
+                ("/viewloom/%6detrics", front.HOST, "GET", 404),
+                ("/viewloom/health%7A?a=b", front.HOST, "GET", 404),
                 ("/viewloom/healthz", front.HOST, "GET", 404)):
             with self.subTest(path=path, host=host, method=method):
                 self.assertEqual(self.fetch(path, host, method).status, status)
