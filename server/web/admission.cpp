@@ -22,9 +22,11 @@ constexpr const char* kLinkParameter = "link";
 constexpr int64_t kUsualLinkSeconds = 300;
 constexpr int kQrBytesMax = 2953;  // of version 40, level L
 
-LinkTarget targetOf(const WatchRequest& request) {
+// A link to a still does not open a stream, which goes on for as long as its token.
+LinkTarget targetOf(const WatchRequest& request, const QuiltAddressForm& form) {
   return {.stream = request.stream,
-          .display = strCat(displayKey(request.display), "\n", encodingKey(request.encoding))};
+          .display = strCat(form.root, "\n", displayKey(request.display), "\n",
+                            encodingKey(request.encoding))};
 }
 
 // Takes the parameter out; "" if there is none.
@@ -115,7 +117,7 @@ absl::StatusOr<MadeLink> makeLink(const WebContext& context, const HttpRequest& 
   VIEWLOOM_RETURN_IF_ERROR(admitStream(*caller, address->request.stream, context.streams));
   const absl::StatusOr<int64_t> seconds = linkSeconds(parameters);
   VIEWLOOM_RETURN_IF_ERROR(seconds.status());
-  const auto link = context.access.sign(*caller, targetOf(address->request), *seconds);
+  const auto link = context.access.sign(*caller, targetOf(address->request, *form), *seconds);
   VIEWLOOM_RETURN_IF_ERROR(link.status());
   // What stands after '#' is no part of the address, and the link would stand in it.
   const std::string plain = address->redirect.empty()
@@ -153,7 +155,8 @@ absl::StatusOr<AdmittedPicture> admitPicture(const WebContext& context, const Ht
   absl::StatusOr<QuiltAddress> address = parseQuiltAddress(url, form);
   VIEWLOOM_RETURN_IF_ERROR(address.status());
   if (!link.empty()) {
-    caller = context.access.admitLink(form.root, request.peer, link, targetOf(address->request));
+    caller =
+        context.access.admitLink(form.root, request.peer, link, targetOf(address->request, form));
     VIEWLOOM_RETURN_IF_ERROR(caller.status());
     if (!address->redirect.empty()) {
       address->redirect = withParameter(address->redirect, kLinkParameter, link);

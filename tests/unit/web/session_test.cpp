@@ -76,9 +76,10 @@ class Session : public testing::Test {
     return answerLink(*context_, {.authorization = "Bearer " + token_},
                       {.path = "/api/link", .parameters = {{"target", target}}});
   }
-  absl::StatusOr<AdmittedPicture> open(const std::string& address, const std::string& cookie = "") {
+  absl::StatusOr<AdmittedPicture> open(const std::string& address, const std::string& cookie = "",
+                                       const QuiltAddressForm& form = stillForm()) {
     const HttpRequest request{.method = "GET", .target = address, .cookie = cookie};
-    return admitPicture(*context_, request, *parseUrl(address), stillForm());
+    return admitPicture(*context_, request, *parseUrl(address), form);
   }
 
   const std::string path_ = std::filesystem::temp_directory_path() /
@@ -147,6 +148,8 @@ TEST_F(Session, makesLinksForOnePicture) {
   EXPECT_EQ(open("/still/room.1/go_p" + signature).status().code(),
             absl::StatusCode::kUnauthenticated);
   EXPECT_EQ(open("/still/room.2/portrait" + signature).status().code(),
+            absl::StatusCode::kUnauthenticated);
+  EXPECT_EQ(open("/stream/room.1/portrait" + signature, "", streamForm()).status().code(),
             absl::StatusCode::kUnauthenticated);
   // Another spelling of the same picture redirects, and keeps the link.
   const auto other = open("/still/room.1/portrait" + signature);
