@@ -39,7 +39,7 @@ class RateMeter {
   int64_t drained_ns_ = 0;
 };
 
-// What happens to a call that comes, or that lives, when a rate is exceeded.
+// The end of a call when a rate is exceeded: of one that comes, or of one that lives.
 enum class RateCheck : uint8_t {
   kRefuses,  // it does not begin
   kEnds      // it ends, and others live on

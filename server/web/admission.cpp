@@ -119,7 +119,7 @@ absl::StatusOr<MadeLink> makeLink(const WebContext& context, const HttpRequest& 
   VIEWLOOM_RETURN_IF_ERROR(seconds.status());
   const auto link = context.access.sign(*caller, targetOf(address->request, *form), *seconds);
   VIEWLOOM_RETURN_IF_ERROR(link.status());
-  // What stands after '#' is no part of the address, and the link would stand in it.
+  // A fragment, from '#' on, is no part of the address, and the link would stand in it.
   const std::string plain = address->redirect.empty()
                                 ? target->second.substr(0, target->second.find('#'))
                                 : address->redirect;
