@@ -16,12 +16,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* kReadable[] = {
     "/usr", "/lib", "/lib32", "/lib64", "/opt", "/run/opengl-driver",
-    // Not all of /etc: root could read all of it.
+    // Not all of /etc: root could read all of it. Nor the private keys of other services: a group
+    // for the server's own key may read them.
     "/etc/ld.so.cache", "/etc/ld.so.conf", "/etc/ld.so.conf.d", "/etc/vulkan", "/etc/glvnd",
-    "/etc/drirc", "/etc/nvidia", "/etc/amd", "/etc/fonts", "/etc/ssl", "/etc/ca-certificates",
-    "/etc/pki", "/etc/hosts", "/etc/host.conf", "/etc/resolv.conf", "/etc/nsswitch.conf",
-    "/etc/gai.conf", "/etc/services", "/etc/protocols", "/etc/localtime", "/etc/timezone",
-    "/etc/passwd", "/etc/group", "/etc/viewloom",
+    "/etc/drirc", "/etc/nvidia", "/etc/amd", "/etc/fonts", "/etc/ssl/certs", "/etc/ssl/openssl.cnf",
+    "/etc/ca-certificates", "/etc/pki/ca-trust", "/etc/pki/tls/certs", "/etc/pki/tls/openssl.cnf",
+    "/etc/hosts", "/etc/host.conf", "/etc/resolv.conf", "/etc/nsswitch.conf", "/etc/gai.conf",
+    "/etc/services", "/etc/protocols", "/etc/localtime", "/etc/timezone", "/etc/passwd",
+    "/etc/group", "/etc/viewloom",
     // The machine, and this process.
     "/proc/self", "/proc/cpuinfo", "/proc/meminfo", "/proc/stat", "/proc/loadavg",
     "/proc/filesystems", "/proc/version", "/proc/devices", "/proc/modules", "/proc/driver",

@@ -41,8 +41,9 @@ class FileGrants : public testing::Test {
 TEST_F(FileGrants, letLibrariesReadTheSystemButNotItsSecrets) {
   const auto readable = pathsOf(librariesGrants(environmentOf({})), FileAccess::kRead);
   EXPECT_THAT(readable, Contains("/usr"));
-  EXPECT_THAT(readable, Contains("/etc/ssl"));
-  for (const char* secret : {"/", "/etc", "/etc/shadow", "/root", "/home", "/var", "/proc"}) {
+  EXPECT_THAT(readable, Contains("/etc/ssl/certs"));
+  for (const char* secret : {"/", "/etc", "/etc/shadow", "/etc/ssl", "/etc/ssl/private", "/etc/pki",
+                             "/etc/pki/tls", "/root", "/home", "/var", "/proc"}) {
     EXPECT_THAT(readable, Not(Contains(secret)));
   }
 }
