@@ -83,9 +83,14 @@ absl::StatusOr<std::optional<std::string>> WatchedFile::readIfChanged() {
   // Before the text: a change after it is then seen at the next call.
   const Mark mark = markNow();
   if (seen_ == mark) return std::nullopt;
-  seen_ = mark;
   absl::StatusOr<std::string> text = readSmallFile(path_, bytes_max_);
-  if (!text.ok()) return text.status();
+  if (!text.ok()) {
+    const bool is_told = std::exchange(unread_, mark) == mark;
+    if (is_told) return std::nullopt;
+    return text.status();
+  }
+  seen_ = mark;
+  unread_.reset();
   return *std::move(text);
 }
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include <filesystem>
@@ -102,6 +103,24 @@ TEST_F(TokenFile, isNoticedWhenItChanges) {
   std::ofstream(path_) << std::string(101, 'x');
   EXPECT_THAT(std::string(file.readIfChanged().status().message()), HasSubstr("too long"));
   EXPECT_EQ(readSmallFile(folder_, 100).status().code(), absl::StatusCode::kFailedPrecondition);
+}
+
+// Else a token stays in force that was revoked while there was no descriptor left.
+TEST_F(TokenFile, isReadOnceThereIsADescriptorForIt) {
+  WatchedFile file(path_, 100);
+  std::ofstream(path_) << "one";
+  EXPECT_EQ(*file.readIfChanged(), "one");
+  std::ofstream(path_) << "other";
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{.rlim_cur = 0, .rlim_max = before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  const absl::Status first = file.readIfChanged().status();
+  const auto second = file.readIfChanged();
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_FALSE(first.ok());
+  EXPECT_TRUE(second.ok() && !second->has_value()) << "said once";
+  EXPECT_EQ(*file.readIfChanged(), "other");
 }
 
 }  // namespace viewloom::token_file_test
