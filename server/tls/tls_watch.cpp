@@ -35,7 +35,7 @@ TlsMaterialPtr orThrow(absl::StatusOr<TlsMaterialPtr> read) {
 }  // namespace
 
 TlsStore::TlsStore(TlsFiles files, WallClock now_s)
-    : files_(std::move(files)), now_s_(std::move(now_s)), judged_(signature()), seen_(judged_) {
+    : files_(std::move(files)), now_s_(std::move(now_s)), taken_(signature()), seen_(taken_) {
   current_ = orThrow(readTlsMaterial(files_, now_s_()));
 }
 
@@ -52,10 +52,15 @@ absl::StatusOr<TlsStore::Found> TlsStore::look() {
   const Signature now = signature();
   // Whoever replaces two files needs a moment: what changed has to stand until the next look.
   const bool is_settled = now == std::exchange(seen_, now);
-  if (!is_settled || now == judged_) return Found::kNothing;
-  judged_ = now;
+  if (!is_settled || now == taken_) return Found::kNothing;
   absl::StatusOr<TlsMaterialPtr> read = readTlsMaterial(files_, now_s_());
-  VIEWLOOM_RETURN_IF_ERROR(read.status());
+  if (!read.ok()) {
+    const bool is_told = std::exchange(refused_, now) == now;
+    if (is_told) return Found::kNothing;
+    return read.status();
+  }
+  taken_ = now;
+  refused_.reset();
   std::lock_guard lock(mutex_);
   current_ = *std::move(read);
   return Found::kTaken;

@@ -79,6 +79,18 @@ TEST_F(TlsStoreTest, keepsWhatItHasWhenNewFilesAreBad) {
   EXPECT_EQ(subjectOf(store), "CN=second");
 }
 
+TEST_F(TlsStoreTest, takesFilesLaterThatWereNotGoodAtFirst) {
+  int64_t now_s = kTestDay_s;
+  TlsStore store(files_, [&now_s] { return now_s; });
+  replace(makeTestCertificate({.name = "second", .begin_s = kTestDay_s + 60}));
+  EXPECT_TRUE(store.look().ok());
+  EXPECT_THAT(std::string(store.look().status().message()), HasSubstr("valid from"));
+  EXPECT_EQ(*store.look(), Found::kNothing);  // told once
+  now_s += 60;
+  EXPECT_EQ(*store.look(), Found::kTaken);
+  EXPECT_EQ(subjectOf(store), "CN=second");
+}
+
 TEST_F(TlsStoreTest, readsAuthoritiesOfClients) {
   files_.client_authorities = folder_ / "clients.crt";
   const TestCertificate authority = makeTestCertificate({.name = "lab", .is_authority = true});
