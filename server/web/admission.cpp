@@ -95,6 +95,16 @@ absl::StatusOr<std::string> pageOf(const HttpRequest& request, const QueryParame
                                      request.host, "/"));
 }
 
+// The address as a link holds it: without what browsers keep to themselves, and in plain ASCII.
+std::string linkable(std::string_view address) {
+  std::string plain;
+  for (const char& character : address.substr(0, address.find('#'))) {
+    const bool is_plain = character > ' ' && character <= '~';
+    plain += is_plain ? std::string(1, character) : percentEncoded({&character, 1});
+  }
+  return plain;
+}
+
 struct MadeLink {
   std::string url;
   int64_t expires_s = 0;
@@ -119,11 +129,8 @@ absl::StatusOr<MadeLink> makeLink(const WebContext& context, const HttpRequest& 
   VIEWLOOM_RETURN_IF_ERROR(seconds.status());
   const auto link = context.access.sign(*caller, targetOf(address->request, *form), *seconds);
   VIEWLOOM_RETURN_IF_ERROR(link.status());
-  // A fragment, from '#' on, is no part of the address, and the link would stand in it.
-  const std::string plain = address->redirect.empty()
-                                ? target->second.substr(0, target->second.find('#'))
-                                : address->redirect;
-  return MadeLink{.url = withParameter(plain, kLinkParameter, link->signature),
+  const std::string& plain = address->redirect.empty() ? target->second : address->redirect;
+  return MadeLink{.url = withParameter(linkable(plain), kLinkParameter, link->signature),
                   .expires_s = link->expires_s};
 }
 
