@@ -82,15 +82,14 @@ WatchedFile::Mark WatchedFile::markNow() const {
 absl::StatusOr<std::optional<std::string>> WatchedFile::readIfChanged() {
   // Before the text: a change after it is then seen at the next call.
   const Mark mark = markNow();
-  if (seen_ == mark) return std::nullopt;
-  absl::StatusOr<std::string> text = readSmallFile(path_, bytes_max_);
-  if (!text.ok()) {
-    const bool is_told = std::exchange(unread_, mark) == mark;
-    if (is_told) return std::nullopt;
-    return text.status();
-  }
+  const bool is_told = seen_ == mark;
+  if (is_told && !is_unread_) return std::nullopt;
   seen_ = mark;
-  unread_.reset();
+  is_unread_ = true;
+  absl::StatusOr<std::string> text = readSmallFile(path_, bytes_max_);
+  if (!text.ok() && is_told) return std::nullopt;
+  if (!text.ok()) return text.status();
+  is_unread_ = false;
   return *std::move(text);
 }
 

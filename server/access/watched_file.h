@@ -19,9 +19,9 @@ class WatchedFile {
   WatchedFile(std::string path, uint64_t bytes_max);
 
   const std::string& path() const { return path_; }
-  // The text if the file is another than the one read last; empty if it is the same. A file that
-  // cannot be read is an error once. It is tried again at each call: there may have been no free
-  // descriptor for it.
+  // The text if the file is another than at the last call; empty if it is the same. A file that
+  // cannot be read is an error once, and read as soon as it can be: the process may lack
+  // descriptors for a moment.
   absl::StatusOr<std::optional<std::string>> readIfChanged();
 
  private:
@@ -37,8 +37,8 @@ class WatchedFile {
 
   const std::string path_;
   const uint64_t bytes_max_;
-  std::optional<Mark> seen_;    // was read
-  std::optional<Mark> unread_;  // could not be read, which was told
+  std::optional<Mark> seen_;
+  bool is_unread_ = false;  // the file of that mark could not be read yet
 };
 
 }  // namespace viewloom
