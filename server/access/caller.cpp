@@ -50,7 +50,15 @@ bool Caller::sees(std::string_view stream) const {
 }
 
 std::string Caller::shareName(std::string_view host) const {
-  return identity_->proof == Proof::kNothing ? identityOfHost(host) : identity_->id;
+  switch (identity_->proof) {
+    case Proof::kNothing:
+      break;
+    case Proof::kToken:
+      return identity_->id;
+    case Proof::kJwt:  // its subject is chosen elsewhere, and may be the id of a token
+      return strCat(identity_->id, " (JWT)");
+  }
+  return identityOfHost(host);
 }
 
 absl::Status Caller::recheck() const {

@@ -25,8 +25,9 @@ class Caller {
   absl::Status mayUse(const std::string& stream) const;
   // Whether lists show the stream to the caller.
   bool sees(std::string_view stream) const;
-  // Name of the one whose share of memory and engine time its calls take: the proven identity's
-  // id. Where nobody has to prove one, it is the client at `host` (identityOfHost).
+  // Name of the one whose share of memory and engine time its calls take: the id of a token, or the
+  // subject of a JWT ("anna (JWT)"). Where nobody has to prove one, it is the client at `host`
+  // (identityOfHost).
   std::string shareName(std::string_view host) const;
   // UNAUTHENTICATED once its identity has expired, was revoked, or has other rights.
   // RESOURCE_EXHAUSTED once it has gone over a rate of its quota. To be asked now and then while a

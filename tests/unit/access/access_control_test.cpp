@@ -96,6 +96,18 @@ TEST_F(Access, namesWhoseShareACallerTakes) {
   EXPECT_EQ(access->admit(kPublishFrames, "10.0.0.7", token)->shareName("10.0.0.7"), "a");
 }
 
+TEST_F(Access, keepsTheSharesOfTokensAndJwtsApart) {
+  const SigningKey key = SigningKey::ed25519();
+  writeKeys(json::array({key.jwk()}));
+  const std::string token = add("anna");
+  const auto access = open();
+  const auto by_token = access->admit(kListStreams, "peer", token);
+  const auto by_jwt = access->admit(kListStreams, "peer", jwt(key));
+  ASSERT_TRUE(by_token.ok() && by_jwt.ok()) << by_jwt.status();
+  EXPECT_EQ(by_token->identity().id, by_jwt->identity().id);
+  EXPECT_NE(by_token->shareName("peer"), by_jwt->shareName("peer"));
+}
+
 TEST_F(Access, forgetsARevokedToken) {
   const std::string token = add("a");
   const auto access = open();
