@@ -5,6 +5,7 @@
 
 #include <condition_variable>
 #include <ctime>
+#include <new>
 #include <stdexcept>
 #include <utility>
 
@@ -35,7 +36,7 @@ TlsMaterialPtr orThrow(absl::StatusOr<TlsMaterialPtr> read) {
 }  // namespace
 
 TlsStore::TlsStore(TlsFiles files, WallClock now_s)
-    : files_(std::move(files)), now_s_(std::move(now_s)), taken_(signature()), seen_(taken_) {
+    : files_(std::move(files)), now_s_(std::move(now_s)), judged_(signature()), seen_(judged_) {
   current_ = orThrow(readTlsMaterial(files_, now_s_()));
 }
 
@@ -52,15 +53,14 @@ absl::StatusOr<TlsStore::Found> TlsStore::look() {
   const Signature now = signature();
   // Whoever replaces two files needs a moment: what changed has to stand until the next look.
   const bool is_settled = now == std::exchange(seen_, now);
-  if (!is_settled || now == taken_) return Found::kNothing;
+  const bool is_told = now == judged_;
+  if (!is_settled || (is_told && !is_refused_)) return Found::kNothing;
+  judged_ = now;
+  is_refused_ = true;
   absl::StatusOr<TlsMaterialPtr> read = readTlsMaterial(files_, now_s_());
-  if (!read.ok()) {
-    const bool is_told = std::exchange(refused_, now) == now;
-    if (is_told) return Found::kNothing;
-    return read.status();
-  }
-  taken_ = now;
-  refused_.reset();
+  if (!read.ok() && is_told) return Found::kNothing;
+  VIEWLOOM_RETURN_IF_ERROR(read.status());
+  is_refused_ = false;
   std::lock_guard lock(mutex_);
   current_ = *std::move(read);
   return Found::kTaken;
@@ -76,7 +76,11 @@ TlsWatch::TlsWatch(TlsFiles files, OnLook on_look)
     std::condition_variable_any never;
     std::unique_lock lock(mutex);
     while (!never.wait_for(lock, stop, kLookInterval, [&] { return stop.stop_requested(); })) {
-      tell(store_.look());
+      try {
+        tell(store_.look());
+      } catch (const std::bad_alloc&) {
+        log(LogLevel::kWarning, "no memory is left to look at the certificate; trying again");
+      }
     }
   });
 }

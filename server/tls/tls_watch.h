@@ -28,8 +28,8 @@ class TlsStore {
 
   // Outcome of one look: nothing new, new files that are in use from now on, or new files that are
   // not good (INVALID_ARGUMENT), so that the older ones stay in use. Each change is told once.
-  // Files that were not good are tried again at each look: their time may not have come, or there
-  // was no free descriptor for them.
+  // Files that are not good are read again at each look: the process may have lacked descriptors,
+  // or the day of a certificate comes.
   enum class Found : uint8_t { kNothing, kTaken };
   absl::StatusOr<Found> look();
 
@@ -43,9 +43,9 @@ class TlsStore {
   const WallClock now_s_;
   mutable std::mutex mutex_;  // of current_
   TlsMaterialPtr current_;
-  Signature taken_;
-  Signature seen_;                    // at the last look
-  std::optional<Signature> refused_;  // told already
+  Signature judged_;
+  Signature seen_;           // at the last look
+  bool is_refused_ = false;  // those of judged_ were not good
 };
 
 // Looks at the files every two seconds, and logs what it finds. A certificate that ends within two
