@@ -166,9 +166,11 @@ void HttpServer::State::take(tcp::socket socket) {
         connections.erase(id);
         fewer.notify_all();
       });
-  lock.lock();
-  connections.emplace(id, HeldConnection{connection, *admission});
-  lock.unlock();
+  {
+    // Let go before the connection, also where there is no memory for the entry.
+    std::lock_guard relock(mutex);
+    connections.emplace(id, HeldConnection{connection, *admission});
+  }
   connection->start();
 }
 
