@@ -175,12 +175,12 @@ void AtlasPublisher::giveUp(AtlasRun& run, const absl::Status& status) {
   on_complete_(run);
 }
 
-void AtlasPublisher::giveUpUnwatched() {
+bool AtlasPublisher::giveUpUnwatched() {
   std::vector<AtlasRunPtr> given_up;  // let go after the lock: their tickets may report
   {
-    // Its holder hands an atlas out, which may take a subscriber's time: the next look does it.
+    // Its holder may wait for a subscriber.
     const std::unique_lock lock(mutex_, std::try_to_lock);
-    if (!lock.owns_lock()) return;
+    if (!lock.owns_lock()) return false;
     const auto isWatched = [&](const AtlasOutput& output) {
       return links_.broadcaster.display(output.display->id) != nullptr;
     };
@@ -196,6 +196,7 @@ void AtlasPublisher::giveUpUnwatched() {
   }
   if (!given_up.empty()) links_.metrics.atlases_given_up.add(double(given_up.size()));
   for (const AtlasRunPtr& run : given_up) on_complete_(*run);
+  return true;
 }
 
 void AtlasPublisher::giveUpAll() {

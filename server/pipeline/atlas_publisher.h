@@ -33,8 +33,8 @@ class AtlasPublisher {
   // Atlases behind it go on. Nothing happens to a run that is complete, or given up.
   void giveUp(AtlasRun& run, const absl::Status& status);
   // Gives up the runs whose displays nobody watches any more. `on_complete` is called for them.
-  // Never waits: some may be left to the next call.
-  void giveUpUnwatched();
+  // Never waits: false where somebody hands an atlas out just now, and nothing was done.
+  bool giveUpUnwatched();
   // Gives up all runs; they stay until dropAll().
   void giveUpAll();
   // Abandons the runs that will not be completed.

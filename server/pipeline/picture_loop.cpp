@@ -101,8 +101,11 @@ bool PictureLoop::makeStep(const AtlasRunPtr& run) {
   return true;
 }
 
+// Where an atlas is being handed out, the next look gives up: its end wakes this loop.
 void PictureLoop::dropGivenUp() {
-  if (desk_.has_demand_changed.exchange(false)) desk_.publisher.giveUpUnwatched();
+  if (desk_.has_demand_changed.exchange(false) && !desk_.publisher.giveUpUnwatched()) {
+    desk_.has_demand_changed = true;
+  }
   const std::vector<AtlasRunPtr> runs = begun_.all();
   for (const AtlasRunPtr& run : runs) {
     if (!run->isGivenUp()) continue;
