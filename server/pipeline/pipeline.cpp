@@ -254,7 +254,7 @@ void Pipeline::onRoom(std::function<void()> then) {
 
 void Pipeline::forgetStream(const std::string& stream) {
   loops_->streams.forget(stream);
-  loops_->on_room();
+  loops_->beginAsked(stream);  // no newer frame comes
 }
 
 void Pipeline::serveDisplays(const std::string& stream_name) {
