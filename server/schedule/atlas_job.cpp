@@ -8,15 +8,12 @@
 #include "display/tracked_eyes.h"
 
 namespace viewloom {
-namespace {
 
 void addPayers(const Payers& more, Payers& payers) {
   for (const Payer& payer : more) {
     if (std::ranges::find(payers, payer) == payers.end()) payers.push_back(payer);
   }
 }
-
-}  // namespace
 
 Claim claimOf(const AtlasJob& job) {
   return {.deadline_ns = job.deadline_ns,

@@ -46,6 +46,9 @@ struct AtlasJob {
   bool has_asked = false;        // for a newer frame, when it was to begin
 };
 
+// Lets these pay, too.
+void addPayers(const Payers& more, Payers& payers);
+
 // The job's claim on the engines' time.
 Claim claimOf(const AtlasJob& job);
 

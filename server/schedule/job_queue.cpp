@@ -31,6 +31,8 @@ std::optional<AtlasJob> JobQueue::push(AtlasJob job) {
   if (kept.structure == job.structure) {
     if (!kept.ticket) kept.ticket = std::move(job.ticket);
     kept.is_for_eyes &= job.is_for_eyes;
+    addPayers(job.payers, kept.payers);
+    older->claim.payers = kept.payers;
     return std::nullopt;
   }
   if (job.structure->serial < kept.structure->serial) return job;

@@ -54,6 +54,25 @@ TEST(JobQueue, givesTheJobOfWhomHadLessFirst) {
   EXPECT_EQ(queue.next(shares, {.all = {}, .tracked = {modest.payers}})->display, "modest");
 }
 
+TEST(JobQueue, letsWhoeverJoinsAPicturePayForIt) {
+  FairShares shares;
+  JobQueue queue;
+  const ResidentPtr structure = someStructure();
+  AtlasJob of_greedy{"shared", structure, 20, nullptr};
+  of_greedy.payers = {Payer::ofHost("10.0.0.1")};
+  AtlasJob of_both = of_greedy;
+  of_both.payers.push_back(Payer::ofHost("10.0.0.2"));
+  AtlasJob of_third{"other", someStructure(), 10, nullptr};
+  of_third.payers = {Payer::ofHost("10.0.0.3")};
+  shares.begin(claimOf(of_third), kPiece_ns);
+  shares.begin(claimOf(of_greedy), 2 * kPiece_ns);
+  queue.push(of_greedy);
+  queue.push(of_third);
+  EXPECT_EQ(queue.next(shares)->display, "other");
+  queue.push(of_both);
+  EXPECT_EQ(queue.next(shares)->display, "shared");
+}
+
 TEST(JobQueue, replacesAJobOfTheSamePictureThatHasNotBegun) {
   JobQueue queue;
   const ResidentPtr older = someStructure();
