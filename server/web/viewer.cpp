@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "admission/out_of_memory.h"
+#include "base/printable.h"
 #include "messages/message_from_json.h"
 #include "viewloom/v1/web_socket.pb.h"
 #include "web/admission.h"
@@ -31,6 +32,7 @@ Viewer::Viewer(WebContext& context, Caller caller, WebStream stream, QueryParame
       socket_(std::move(stream)),
       awake_(socket_.get_executor(), net::steady_timer::time_point::max()),
       next_read_(socket_.get_executor()),
+      write_end_(socket_.get_executor()),
       pace_(context.options.message_rate),
       parameters_(std::move(parameters)),
       identity_(std::move(identity)) {
@@ -216,9 +218,19 @@ net::awaitable<void> Viewer::writeMessages() {
   }
 }
 
+void Viewer::beginOfWrite() {
+  write_end_.expires_after(context_.options.transfer_timeout);
+  write_end_.async_wait([weak = weak_from_this()](const ErrorCode& ended) {
+    const auto self = ended ? nullptr : weak.lock();
+    if (self) self->cut();
+  });
+}
+
 net::awaitable<void> Viewer::writeText(std::string text, ErrorCode& error) {
   socket_.text(true);
+  beginOfWrite();
   co_await socket_.async_write(net::buffer(text), into(error));
+  endOfWrite();
 }
 
 net::awaitable<void> Viewer::writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& error) {
@@ -233,7 +245,9 @@ net::awaitable<void> Viewer::writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& 
   std::vector<net::const_buffer> buffers;
   for (const auto& part : message.parts()) buffers.emplace_back(part.data(), part.size());
   socket_.binary(true);
+  beginOfWrite();
   co_await socket_.async_write(buffers, into(error));
+  endOfWrite();
   if (error) co_return;
   context_.metrics.atlases_sent[Transport::kWeb].add();
   context_.metrics.sent_bytes[Transport::kWeb].add(static_cast<double>(message.sizeBytes()));
@@ -245,7 +259,8 @@ net::awaitable<void> Viewer::close(const absl::Status& status) {
   websocket::close_reason reason(websocket::close_code::going_away);
   if (!status.ok()) {
     reason.code = websocket::close_code::policy_error;
-    reason.reason = std::string(status.message()).substr(0, kCloseReasonBytesMax);
+    const std::string message(status.message());
+    reason.reason = std::string(wholeCharacters(message, kCloseReasonBytesMax));
   }
   ErrorCode error;
   co_await socket_.async_close(reason, into(error));

@@ -53,6 +53,10 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   // Waits until the next message may be read.
   net::awaitable<void> keepPace(size_t message_bytes, ErrorCode& error);
   net::awaitable<void> writeMessages();
+  // From now on the client has transfer_timeout to take what is written, until endOfWrite(). Pings
+  // tell nothing about that: a client may answer, and read no more.
+  void beginOfWrite();
+  void endOfWrite() { write_end_.cancel(); }
   net::awaitable<void> writeText(std::string text, ErrorCode& error);
   net::awaitable<void> writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& error);
   net::awaitable<void> close(const absl::Status& status);
@@ -66,6 +70,7 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   websocket::stream<WebStream> socket_;
   net::steady_timer awake_;  // never expires: waiting for it is waiting for wake()
   net::steady_timer next_read_;
+  net::steady_timer write_end_;
   MessagePace pace_;
   const QueryParameters parameters_;
   const std::string identity_;

@@ -22,7 +22,8 @@ constexpr const char* kAllowOrigin = "--allow-origin";
 
 // Access tokens are those of the file in the variable PAINTED_TOKEN_FILE.
 // Options are pairs: --port 0 --rate-hz 10 --connections 1024 --timeout-ms 10000 --thread-count 2
-// --idle-ms 20000 --flat 0 (1: a view is one grey, black the first and white the last).
+// --idle-ms 20000 --transfer-ms 60000 --flat 0 (1: a view is one grey, black the first and white
+// the last).
 std::map<std::string, int> readOptions(int argc, char** argv) {
   std::map<std::string, int> options = {{"--port", 0},
                                         {"--rate-hz", 0},
@@ -30,6 +31,7 @@ std::map<std::string, int> readOptions(int argc, char** argv) {
                                         {"--timeout-ms", 10'000},
                                         {"--thread-count", 2},
                                         {"--idle-ms", 20'000},
+                                        {"--transfer-ms", 60'000},
                                         {"--ms-per-megapixel", 0},
                                         {"--flat", 0}};
   for (int i = 1; i + 1 < argc; i += 2) {
@@ -54,6 +56,7 @@ viewloom::HttpOptions httpOptions(const std::map<std::string, int>& options) {
   http.request_timeout = std::chrono::milliseconds(options.at("--timeout-ms"));
   http.still_timeout = http.request_timeout;
   http.idle_timeout = std::chrono::milliseconds(options.at("--idle-ms"));
+  http.transfer_timeout = std::chrono::milliseconds(options.at("--transfer-ms"));
   return http;
 }
 

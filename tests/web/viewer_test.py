@@ -4,6 +4,7 @@ import io
 import os
 import struct
 import sys
+import time
 import unittest
 
 from PIL import Image
@@ -192,6 +193,16 @@ class Viewers(unittest.TestCase):
                 awake.send_json({"ping": 1})
                 self.assertEqual(awake.receive(), {"pong": 1})
                 displays = len(fetch(server.port, "/api/displays").json()["displays"])
+
+    def test_a_viewer_that_never_reads_is_cut_whatever_it_sends(self):
+        with Server(PROGRAM, "--transfer-ms", 500) as server:
+            deaf = WebSocket(server.port, "/ws?stream=painted")  # more than a socket holds
+            self.addCleanup(deaf.close)
+            begun_s = time.monotonic()
+            with self.assertRaises((BrokenPipeError, ConnectionResetError)):
+                while time.monotonic() < begun_s + 30:
+                    deaf.send_json({"shown": 0})
+                    time.sleep(0.1)
 
     def test_messages_that_mean_nothing_are_answered_with_what_is_accepted(self):
         viewer = self.watch()
