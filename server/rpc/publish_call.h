@@ -53,6 +53,8 @@ class PublishCall final : public BidiCall {
         caller_(std::move(caller)),
         identity_(caller_->shareName(host_)) {}
 
+  // Name of the client whose share it takes (Caller::shareName).
+  const std::string& identity() const { return identity_; }
   // Tells the publisher what its displays want now, if that changed.
   void refreshWanted();
   // To be called every kTick: ends the call of a publisher whose heartbeats stay away, or whose

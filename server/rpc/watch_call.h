@@ -46,6 +46,8 @@ class WatchCall final : public BidiCall {
         identity_(caller_->shareName(host)),
         outbox_(parts_.metrics) {}
 
+  // Name of the client whose share it takes (Caller::shareName).
+  const std::string& identity() const { return identity_; }
   // UNAVAILABLE for a call that was never opened; the broadcaster ends the others.
   void endUnlessWatching();
   // To be called every kTick: sends heartbeats to a client that wants them, and ends the call of a
