@@ -15,7 +15,7 @@ namespace {
 
 class AtlasPublisherTest : public testing::Test {
  protected:
-  // Of a display that nobody watches; nothing of it is left to be packed.
+  // A run of a display that nobody watches; nothing of it is left to be packed.
   static AtlasRunPtr runOf(const std::string& picture_key, FrameTicketPtr ticket) {
     auto layout = std::make_shared<AtlasLayout>();
     layout->size_px = layout->tile_size_px = {64, 64};
