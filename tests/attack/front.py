@@ -66,8 +66,9 @@ class Front:
                  # The attacks and the pair come from one address, under this name too.
                  (r"viewloom\.example", f"{HOST} localhost")]
         command = self.haproxy(folder, ports) if kind == "haproxy" else self.nginx(folder, ports)
-        self.process = subprocess.Popen([program_of(kind), *map(str, command)],
-                                        stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        with open(folder / "output.log", "wb") as output:
+            self.process = subprocess.Popen([program_of(kind), *map(str, command)], stdout=output,
+                                            stderr=output)
         self.address = Address(self.port, self.port, ssl.create_default_context(), certificate,
                                "/viewloom", host="127.0.0.1")
 
@@ -85,11 +86,15 @@ class Front:
         (folder / "site.conf").write_text(replaced(text, changes))
         paths = "".join(f"    {name}_temp_path {folder}/{name};\n" for name in
                         ("client_body", "proxy", "fastcgi", "uwsgi", "scgi"))
+        # Debian's nginx.conf logs each request, unless a site says otherwise.
         (folder / "nginx.conf").write_text(
-            f"daemon off;\nmaster_process off;\npid {folder}/pid;\nerror_log {folder}/log;\n"
-            f"events {{}}\nhttp {{\n    access_log off;\n{paths}    include {folder}/site.conf;\n"
-            "}\n")
-        return ["-p", folder, "-c", folder / "nginx.conf", "-e", folder / "log"]
+            f"daemon off;\nmaster_process off;\npid {folder}/pid;\nerror_log {folder}/error.log;\n"
+            f"events {{}}\nhttp {{\n    access_log {folder}/access.log;\n"
+            f"{paths}    include {folder}/site.conf;\n}}\n")
+        return ["-p", folder, "-c", folder / "nginx.conf", "-e", folder / "error.log"]
+
+    def logged(self):
+        return "".join(log.read_text() for log in Path(self.folder.name).glob("*.log"))
 
     def pids(self):
         return [self.process.pid]

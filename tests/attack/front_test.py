@@ -98,6 +98,11 @@ class BehindAFront(unittest.TestCase):
             with self.subTest(path=path, host=host, method=method):
                 self.assertEqual(self.fetch(path, host, method).status, status)
 
+    def test_keeps_signed_links_out_of_its_log(self):
+        reply = self.fetch("/viewloom/still/scene/portrait?link=1893456000.t.YQ.c2VjcmV0")
+        self.assertEqual(reply.status, 400)
+        self.assertNotIn("c2VjcmV0", self.front.logged())
+
     def test_carries_calls_and_large_frames(self):
         noise = np.random.default_rng(1).integers(0, 255, (*LARGE_PX, 3), np.uint8)
         large = viewloom.Source(noise, np.full(LARGE_PX, 2, np.float32), fov_y_rad=0.9)
