@@ -106,7 +106,12 @@ CallEnd Publisher::runCall(const std::stop_token& stop) {
     was_connected_ = false;
     chunk_size_ = {};
     pace_.setRate(0);  // until the server says otherwise
-    if (!waiting_) waiting_ = std::move(newest_sent_);
+    again_ = 0;
+    if (!waiting_ && newest_sent_) {
+      waiting_ = std::move(newest_sent_);
+      const uint64_t number = waiting_->header.number();
+      if (number <= last_reported_) again_ = number;
+    }
     newest_sent_.reset();
   }
   grpc::ClientContext context;
@@ -153,6 +158,7 @@ void Publisher::takeAnswer(const v1::PublishFramesResponse& answer) {
     {
       std::lock_guard lock(mutex_);
       was_connected_ = true;
+      changed_.notify_all();
     }
     if (callbacks_.on_connection) callbacks_.on_connection({});
     if (callbacks_.on_accepted) callbacks_.on_accepted(answer.accepted());
@@ -175,13 +181,23 @@ void Publisher::noteWanted(const v1::Wanted& wanted) {
 void Publisher::noteReport(const v1::FrameReport& report) {
   {
     std::lock_guard lock(mutex_);
-    in_flight_.erase(report.number());
-    ++counts_.reported;
-    counts_.replaced_there += report.outcome() == v1::FRAME_OUTCOME_REPLACED;
-    counts_.refused += report.outcome() == v1::FRAME_OUTCOME_REFUSED;
+    const auto sent = in_flight_.extract(report.number());
+    if (!sent.empty() && report.number() != again_) count(report, sent.mapped());
     changed_.notify_all();
   }
   if (callbacks_.on_report) callbacks_.on_report(report);
+}
+
+// With mutex_ held.
+void Publisher::count(const v1::FrameReport& report, uint64_t bytes) {
+  const bool is_refused = report.outcome() == v1::FRAME_OUTCOME_REFUSED;
+  last_reported_ = std::max(last_reported_, report.number());
+  ++counts_.reported;
+  counts_.refused += is_refused;
+  counts_.replaced_there += report.outcome() == v1::FRAME_OUTCOME_REPLACED;
+  if (is_refused) return;
+  ++counts_.sent;
+  counts_.sent_bytes += bytes;
 }
 
 std::optional<WireFrame> Publisher::waitForFrame(const std::stop_token& stop) {
@@ -189,6 +205,7 @@ std::optional<WireFrame> Publisher::waitForFrame(const std::stop_token& stop) {
   const auto isDue = [&] { return finishing_ || steadyNowNs() >= pace_.dueNs(); };
   const auto hasNext = [&] {
     if (answers_ended_) return true;
+    if (!was_connected_) return false;
     if (waiting_) return in_flight_.size() < options_.in_flight_max;
     return finishing_ && in_flight_.empty();
   };
@@ -204,15 +221,19 @@ std::optional<WireFrame> Publisher::waitForFrame(const std::stop_token& stop) {
 
 void Publisher::sendFrames(HeartbeatWriter& writer, const std::stop_token& stop) {
   while (std::optional<WireFrame> frame = waitForFrame(stop)) {
-    const uint64_t number = frame->header.number();
     {
       std::lock_guard lock(mutex_);
-      in_flight_.insert(number);
       newest_sent_ = *frame;
     }
     const CompressedFrame compressed = compressFrame(
         *std::move(frame),
         {.zstd_level = options_.zstd_level, .predicts_depth = options_.predicts_depth});
+    {
+      uint64_t bytes = 0;
+      for (const SharedBytes& plane : compressed.frame.planes) bytes += plane->size();
+      std::lock_guard lock(mutex_);
+      in_flight_[compressed.frame.header.number()] = bytes;
+    }
     if (!sendFrame(writer, compressed.frame, stop)) return;
     if (callbacks_.on_sent) callbacks_.on_sent(compressed);
   }
@@ -228,12 +249,7 @@ bool Publisher::sendFrame(HeartbeatWriter& writer, const WireFrame& frame,
     }
     return true;
   };
-  const bool was_sent = takeFrameMessages(frame, send, [&] { return chunk_size_.bytes(); });
-  if (!was_sent) return false;
-  std::lock_guard lock(mutex_);
-  ++counts_.sent;
-  for (const SharedBytes& plane : frame.planes) counts_.sent_bytes += plane->size();
-  return true;
+  return takeFrameMessages(frame, send, [&] { return chunk_size_.bytes(); });
 }
 
 }  // namespace viewloom

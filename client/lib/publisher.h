@@ -5,10 +5,10 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
 
@@ -50,12 +50,13 @@ struct PublisherCallbacks {
   std::function<void(const CompressedFrame&)> on_sent;
 };
 
+// Counts of frames. A frame that goes again after a broken connection counts once.
 struct PublisherCounts {
   uint64_t offered = 0;
   uint64_t replaced_here = 0;  // replaced by a newer frame before they were sent
-  uint64_t sent = 0;
-  uint64_t sent_bytes = 0;
-  uint64_t reported = 0;  // by the server, any outcome
+  uint64_t sent = 0;           // the server has reported them, and did not refuse them
+  uint64_t sent_bytes = 0;     // planes of these, as they went
+  uint64_t reported = 0;       // by the server, any outcome
   uint64_t replaced_there = 0;
   uint64_t refused = 0;
   uint64_t reconnects = 0;
@@ -63,8 +64,9 @@ struct PublisherCounts {
 
 // Publisher of one stream. It numbers frames 1, 2, ...
 //
-// It sends no more frames a second than the server uses (proto Wanted). A frame waits for its time,
-// and a newer one replaces it. The last frame before close() does not wait.
+// It sends frames once the server has accepted the stream. Until then, newer frames replace older
+// ones. It sends no more frames a second than the server uses (proto Wanted). A frame waits for its
+// time, and a newer one replaces it. The last frame before close() does not wait.
 //
 // After a broken connection it reconnects with its session id. It sends the newest frame again if
 // no newer one waits. It sends heartbeats, and treats 5 s without one from the server as a broken
@@ -107,6 +109,7 @@ class Publisher {
   std::optional<WireFrame> waitForFrame(const std::stop_token& stop);
   bool sendFrame(HeartbeatWriter& writer, const WireFrame& frame, const std::stop_token& stop);
   void noteReport(const v1::FrameReport& report);
+  void count(const v1::FrameReport& report, uint64_t bytes);
   void noteWanted(const v1::Wanted& wanted);
 
   const PublisherOptions options_;
@@ -116,8 +119,10 @@ class Publisher {
   mutable std::mutex mutex_;
   mutable std::condition_variable_any changed_;
   std::optional<WireFrame> waiting_;
-  std::optional<WireFrame> newest_sent_;  // sent again after a broken connection
-  std::set<uint64_t> in_flight_;          // numbers sent in this call and not reported
+  std::optional<WireFrame> newest_sent_;    // sent again after a broken connection
+  std::map<uint64_t, uint64_t> in_flight_;  // number to bytes: sent in this call, not reported
+  uint64_t last_reported_ = 0;              // greatest number of a report
+  uint64_t again_ = 0;  // number that this call sends again after its report; 0 = none
   SendPace pace_;
   uint64_t last_number_ = 0;
   bool answers_ended_ = false;

@@ -36,9 +36,10 @@ void judgePublisher(const PublisherBook& book, Problems& problems) {
   require(book.traced > 0, "had no frame traced");
   require(book.counts.refused == 0, "had frames refused");
   require(book.repeated_reports == 0, "got more than one report for a frame");
-  require(book.reported_frames == book.counts.sent, "sent " + std::to_string(book.counts.sent) +
-                                                        " frames and got reports of " +
-                                                        std::to_string(book.reported_frames));
+  const uint64_t gone = book.counts.offered - book.counts.replaced_here;
+  require(book.reported_frames == gone, "sent " + std::to_string(gone) +
+                                            " frames and got reports of " +
+                                            std::to_string(book.reported_frames));
 }
 
 void judgeDisplay(const DisplayBook& book, Problems& problems) {

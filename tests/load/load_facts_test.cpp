@@ -18,6 +18,8 @@ const LoadOptions kOptions{.publishers = 1, .displays = 1};
 LoadResult goodResult() {
   PublisherBook publisher;
   publisher.stream = "s";
+  publisher.counts.offered = 12;
+  publisher.counts.replaced_here = 2;
   publisher.counts.sent = 10;
   publisher.traced = 4;
   publisher.reported_frames = 10;

@@ -140,6 +140,8 @@ TEST(ClientPublisher, survivesARestartOfTheServer) {
   EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
   ASSERT_EQ(received.size(), 1U) << "the still is shown again";
   EXPECT_EQ(received[0].planes[0], bytesOf(makeFrame(1).planes[0]));
+  EXPECT_EQ(publisher.counts().sent, 1U) << "one frame, shown twice";
+  EXPECT_EQ(publisher.counts().reported, 1U);
 }
 
 TEST(ClientPublisher, endsWhenTheServerRefusesIt) {
