@@ -59,6 +59,13 @@ bool isOfNuke(const files::ExrDescription& description) {
   return std::any_of(description.texts.begin(), description.texts.end(), is_nuke);
 }
 
+bool isDepthOfNuke(const std::string& channel) {
+  const std::string name = files::lowered(channel);
+  const size_t at = name.find("depth.");
+  const bool begins = at == 0 || (at != std::string::npos && name[at - 1] == '.');
+  return begins && name.ends_with(".z");
+}
+
 namespace {
 
 using NameSet = std::set<std::string>;

@@ -12,11 +12,14 @@
 namespace viewloom::inputs {
 
 // A renderer that names itself in attributes ("arnold/version", Software, renderer) or in names of
-// channels ("VRayZDepth"), or Blender. Nothing of Nuke, which passes on depth of any kind.
+// channels ("VRayZDepth"), or Blender. Nothing of Nuke: see nuke_depth.h.
 std::optional<InputKind> toolOf(const files::ExrDescription& description);
 
 // Whether Nuke wrote the file.
 bool isOfNuke(const files::ExrDescription& description);
+
+// Whether a channel is Z of Nuke's layer depth: depth.Z, with a view before or within.
+bool isDepthOfNuke(const std::string& channel);
 
 struct ExrLayers {
   std::vector<std::string> color;  // R, G, B and perhaps A

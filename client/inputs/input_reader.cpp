@@ -124,18 +124,45 @@ void InputReader::settleZeros(Interpretation& how, files::LoadedFrame& frame) {
   if (*has_scattered_zeros_) plane.mutable_depth()->set_invalid_value(0);
 }
 
+absl::StatusOr<files::LoadedFrame> InputReader::load(const InputFiles& files,
+                                                     const Interpretation& how) const {
+  if (photos::isPhoto(files.color)) return loadPhotoFrame(how.source);
+  v1::FrameManifest manifest;
+  *manifest.add_sources() = how.source;
+  return files::loadFrame(manifest, "");
+}
+
+// The samples of the first frame tell what all frames mean; it is read again if that is 1/Z.
+absl::StatusOr<files::LoadedFrame> InputReader::loadOfNuke(const InputFiles& files,
+                                                           Interpretation& how) {
+  v1::PlaneFile& file = *how.source.mutable_layers(0)->mutable_depth();
+  const bool was_inverse = nuke_.known() == NukeDepth::kInverse;
+  if (was_inverse) file.mutable_depth()->set_meaning(v1::DEPTH_MEANING_DISPARITY);
+  absl::StatusOr<files::LoadedFrame> frame = load(files, how);
+  if (!frame.ok()) return frame;
+  const NukeVerdict verdict =
+      judgeNukeDepth(inspect::storedNumbers(depthOf(*frame), *frame->wire.planes[1]));
+  const absl::StatusOr<NukeDepth> depth = nuke_.settle(verdict, file.file(), how.nuke_channel);
+  if (!depth.ok()) return depth.status();
+  how.notes.push_back(noteOf(*depth, verdict, how.nuke_channel));
+  if (*depth == NukeDepth::kDistance) return frame;
+  how.kind = InputKind::kNuke;
+  if (was_inverse) return frame;
+  file.mutable_depth()->set_meaning(v1::DEPTH_MEANING_DISPARITY);
+  return load(files, how);
+}
+
 absl::StatusOr<ReadInput> InputReader::read(const InputFiles& files) {
   absl::StatusOr<Interpretation> how = interpret(settings_, files);
   if (!how.ok()) return how.status();
   VIEWLOOM_RETURN_IF_ERROR(requireExrChannels(files, *how));
-  v1::FrameManifest manifest;
-  *manifest.add_sources() = how->source;
   absl::StatusOr<files::LoadedFrame> frame =
-      photos::isPhoto(files.color) ? loadPhotoFrame(how->source) : files::loadFrame(manifest, "");
+      how->nuke_channel.empty() ? load(files, *how) : loadOfNuke(files, *how);
   if (!frame.ok()) return frame.status();
   VIEWLOOM_RETURN_IF_ERROR(settleFormat(*how, *frame));
   v1::Source& source = *frame->wire.header.mutable_sources(0);
-  if (isRenderer(how->kind)) {
+  const bool is_passed_on = how->kind == InputKind::kPlain && !how->nuke_channel.empty();
+  if (isRenderer(how->kind) || is_passed_on) {
     settleRendererDepth(settings_, *source.mutable_layers(0)->mutable_planes(1),
                         frame->wire.planes[1], how->notes);
   }

@@ -8,6 +8,7 @@
 #include "files/frame_manifest.h"
 #include "inputs/depth_format.h"
 #include "inputs/interpretation.h"
+#include "inputs/nuke_depth.h"
 
 namespace viewloom::inputs {
 
@@ -29,9 +30,12 @@ class InputReader {
  private:
   absl::Status settleFormat(Interpretation& how, files::LoadedFrame& frame);
   absl::Status settlePixels(const Interpretation& how, files::LoadedFrame& frame) const;
+  absl::StatusOr<files::LoadedFrame> load(const InputFiles& files, const Interpretation& how) const;
+  absl::StatusOr<files::LoadedFrame> loadOfNuke(const InputFiles& files, Interpretation& how);
   void settleZeros(Interpretation& how, files::LoadedFrame& frame);
 
   InputSettings settings_;
+  NukeConvention nuke_;
   // Range of floats without a scale: that of the first frame, so that later ones do not pulse.
   std::optional<SampleRange> float_range_;
   // Whether 0 lies scattered over the first frame's inverse depth, and so is no surface.

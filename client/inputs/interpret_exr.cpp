@@ -96,6 +96,7 @@ class ExrInterpreter {
     }
     VIEWLOOM_RETURN_IF_ERROR(findTool());
     VIEWLOOM_RETURN_IF_ERROR(takeNamed());
+    askForNukeDepth();
     if (color_ != nullptr) setNames(found_.color, colorPlane());
     if (depth_file != nullptr) setNames(found_.depth, depthPlane());
     note();
@@ -168,9 +169,17 @@ class ExrInterpreter {
       result_.kind = *tool;
     } else if (is_blender_value) {
       result_.kind = InputKind::kBlender;
-    } else if (isOfNuke(file->description)) {
-      result_.notes.push_back(
-          "Nuke wrote the file; depth that Nuke itself made is 1/Z: --input nuke");
+    }
+  }
+
+  // Other layers pass through Nuke as they came. A user who says what depth means is not asked.
+  void askForNukeDepth() {
+    const Described* const file = depthFile();
+    const bool is_open = mayDetect() && result_.kind == InputKind::kPlain &&
+                         settings_.depth_meaning == v1::DEPTH_MEANING_UNSPECIFIED;
+    if (!is_open || file == nullptr || found_.depth.empty()) return;
+    if (isOfNuke(file->description) && isDepthOfNuke(found_.depth.front())) {
+      result_.nuke_channel = found_.depth.front();
     }
   }
 

@@ -37,6 +37,8 @@ struct Interpretation {
   Projection projection = Projection::kFlat;
   DepthRange range = DepthRange::kStated;
   uint32_t video_frame_count = 1;  // of .yuv files
+  // Channel of depth that Nuke wrote: its samples tell whether they are Z or 1/Z. Empty = known.
+  std::string nuke_channel;
   std::vector<std::string> notes;  // what a user may want to know, a sentence each
 };
 
