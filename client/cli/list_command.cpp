@@ -10,7 +10,7 @@
 #include "base/nearest_name.h"
 #include "base/printable.h"
 #include "base/str_cat.h"
-#include "cli/interrupt.h"
+#include "cli/page_address.h"
 #include "cli/print_json.h"
 #include "cli/report_error.h"
 #include "cli/server_options.h"
@@ -107,7 +107,7 @@ const char* reachText(v1::Reach reach) {
   }
 }
 
-void print(const v1::GetServerInfoResponse& info) {
+void print(const v1::GetServerInfoResponse& info, const std::string& page) {
   std::printf("viewloomd %s on %s (%s)%s\n", printable(info.version()).c_str(),
               printable(info.device()).c_str(), printable(info.driver()).c_str(),
               info.traces_on_cpu() ? ", renders on the CPU" : "");
@@ -115,8 +115,7 @@ void print(const v1::GetServerInfoResponse& info) {
               static_cast<double>(info.ingest_limits().frame_bytes_max()) * 1e-6,
               info.ingest_limits().plane_side_px_max(), info.ingest_limits().layer_count_max(),
               info.atlas_side_px_max());
-  if (!info.http_address().empty())
-    std::printf("page: %s\n", printable(info.http_address()).c_str());
+  if (!page.empty()) std::printf("page: %s\n", printable(page).c_str());
   if (!info.containment().empty())
     std::printf("containment: %s\n", printable(info.containment()).c_str());
   std::printf("%s", reachText(info.reach()));
@@ -132,12 +131,21 @@ absl::Status show(const absl::StatusOr<Response>& response, bool as_json) {
   return printJson(*response);
 }
 
-absl::Status list(const ListOptions& options, const Catalog& catalog) {
+absl::Status showServer(absl::StatusOr<v1::GetServerInfoResponse> info, const std::string& server,
+                        bool as_json) {
+  if (!info.ok()) return info.status();
+  info->set_http_address(pageToOpen(info->http_address(), server));
+  if (as_json) return printJson(*info);
+  print(*info, strCat(info->http_address(), pageRemark(info->http_address(), server)));
+  return absl::OkStatus();
+}
+
+absl::Status list(const ListOptions& options, const std::string& server, const Catalog& catalog) {
   const auto wants = [&](const char* what) {
     return options.what == what || options.what == "all";
   };
   if (wants("server")) {
-    VIEWLOOM_RETURN_IF_ERROR(show(catalog.getServerInfo(), options.as_json));
+    VIEWLOOM_RETURN_IF_ERROR(showServer(catalog.getServerInfo(), server, options.as_json));
   }
   if (wants("streams")) VIEWLOOM_RETURN_IF_ERROR(show(catalog.listStreams(), options.as_json));
   if (wants("displays")) VIEWLOOM_RETURN_IF_ERROR(show(catalog.listDisplays(), options.as_json));
@@ -166,12 +174,11 @@ RunCommand addListCommand(const usage::Command& app) {
   }
   app.addFlag("--json", options->as_json, "Print the answers of the server as JSON");
   return [options](const CommonOptions& common) -> int {
-    leaveInterrupts();  // a server that hangs keeps nobody waiting
     if (std::ranges::find(kLists, options->what) == kLists.end()) {
       std::fprintf(stderr, "viewloom list: %s\n", unknownList(options->what).c_str());
       return kExitUsage;
     }
-    const absl::Status status = list(*options, Catalog(channelTo(common)));
+    const absl::Status status = list(*options, common.server, Catalog(channelTo(common)));
     return status.ok() ? kExitDone : reportError(status, common);
   };
 }

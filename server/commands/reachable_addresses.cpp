@@ -56,7 +56,7 @@ std::vector<std::string> reachableAddresses(const std::string& listening,
   if (listening.starts_with("unix:") || !parsed || !parsed->port) return {};
   if (isLoopbackHost(parsed->host)) return {};
   const bool takes_ipv6 = parsed->host == "::";
-  if (parsed->host != "0.0.0.0" && !takes_ipv6) return {listening};
+  if (!isAnyHost(parsed->host)) return {listening};
   const std::string port = strCat(":", *parsed->port);
   std::vector<std::string> addresses;
   for (const std::string& address : interfaces.ipv4) addresses.push_back(address + port);

@@ -12,6 +12,7 @@
 #include "base/clock.h"
 #include "base/descriptors.h"
 #include "base/heap.h"
+#include "base/host_port.h"
 #include "base/log.h"
 #include "certificates/certificate.h"
 #include "certificates/server_address.h"
@@ -122,7 +123,7 @@ int serveUntilStopped(const Config& config) {
   };
   Service service(config, clock, on_failure, contain);
   std::printf("viewloomd listening grpc=%s http=%s\n", service.grpcAddress().c_str(),
-              service.httpUrl().c_str());
+              urlToOpen(service.httpUrl(), "localhost").c_str());
   sayReach(service, exposureOf(config), interfaces);
   std::fflush(stdout);
 

@@ -11,11 +11,12 @@ PROGRAM = sys.argv.pop(1)
 
 
 class Viewloomd:
-    def __init__(self, address="127.0.0.1:0", options=(), log=None, environment=None):
+    def __init__(self, address="127.0.0.1:0", options=(), log=None, environment=None,
+                 http_address="127.0.0.1:0"):
         """options: further ones of `viewloomd serve`. log: a file for what it logs. environment:
         variables beside those of this process."""
         self.process = subprocess.Popen(
-            [PROGRAM, "serve", "--grpc.address", address, "--http.address", "127.0.0.1:0",
+            [PROGRAM, "serve", "--grpc.address", address, "--http.address", http_address,
              *options], stdout=subprocess.PIPE, stderr=log, text=True,
             env={**os.environ, **(environment or {})})
         line = self.process.stdout.readline()

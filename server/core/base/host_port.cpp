@@ -3,6 +3,7 @@
 
 #include <arpa/inet.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstring>
@@ -49,6 +50,22 @@ std::optional<HostPort> parseHostPort(std::string_view text) {
   }
   if (parsed.host.empty() || !readPort(text, parsed.port)) return std::nullopt;
   return parsed;
+}
+
+bool isAnyHost(std::string_view host) {
+  return host == "0.0.0.0" || host == "::";
+}
+
+std::string urlToOpen(std::string_view url, std::string_view host) {
+  constexpr std::string_view kSchemeEnd = "://";
+  const size_t scheme_end = url.find(kSchemeEnd);
+  if (scheme_end == std::string_view::npos) return std::string(url);
+  const size_t begin = scheme_end + kSchemeEnd.size();
+  const size_t end = std::min(url.find('/', begin), url.size());
+  std::optional<HostPort> listening = parseHostPort(url.substr(begin, end - begin));
+  if (!listening || !isAnyHost(listening->host)) return std::string(url);
+  listening->host = host;
+  return strCat(url.substr(0, begin), listening->text(), url.substr(end));
 }
 
 std::string identityOfHost(std::string_view host) {

@@ -22,6 +22,15 @@ std::optional<HostPort> parseHostPort(std::string_view text);
 // Whether a host, without port and brackets, is a name or an address of the loopback interface.
 bool isLoopbackHost(std::string_view host);
 
+// Whether a server that listens at the host takes calls at all addresses of its machine: 0.0.0.0
+// and
+// ::. Nobody can open such an address.
+bool isAnyHost(std::string_view host);
+
+// The URL of a page, http://HOST:PORT/PATH, as a browser opens it: `host` takes the place of a host
+// that stands for all addresses. Other URLs stay as they are.
+std::string urlToOpen(std::string_view url, std::string_view host);
+
 // All clients on the server's own machine together.
 inline constexpr std::string_view kThisMachine = "this machine";
 

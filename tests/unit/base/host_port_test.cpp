@@ -47,6 +47,16 @@ TEST(HostPort, knowsTheLoopbackByAddressNotByLook) {
   }
 }
 
+TEST(UrlToOpen, hasAHostThatCanBeOpened) {
+  EXPECT_EQ(urlToOpen("http://0.0.0.0:8080/", "localhost"), "http://localhost:8080/");
+  EXPECT_EQ(urlToOpen("https://[::]:8080/a/b", "studio.local"), "https://studio.local:8080/a/b");
+  EXPECT_EQ(urlToOpen("http://0.0.0.0:8080", "fd00::5"), "http://[fd00::5]:8080");
+  for (const char* url : {"http://127.0.0.1:8080/", "http://[::1]:1/", "http://10.0.0.0:1/0.0.0.0",
+                          "0.0.0.0:8080", ""}) {
+    EXPECT_EQ(urlToOpen(url, "localhost"), url);
+  }
+}
+
 TEST(IdentityOfHost, isOneForAllAddressesOfAClient) {
   for (const char* const host : {"127.0.0.1", "localhost", "::1", "::ffff:127.0.0.2"}) {
     EXPECT_EQ(identityOfHost(host), "this machine") << host;
