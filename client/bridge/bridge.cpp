@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bridge/bridge.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -18,6 +19,7 @@ constexpr const char* kNotABridge = "; check that --bridge names Looking Glass B
 constexpr size_t kQuotedBytesMax = 60;
 // Bridge shows an entry so long, then the next; a list that loops shows its only one for ever.
 constexpr int kEntryDuration_ms = 20'000;
+constexpr std::chrono::milliseconds kLastCall{300};  // to leave, once the caller has given up
 
 // Bridge wraps values as {"name": ..., "type": ..., "value": VALUE}.
 json unwrapped(const json& wrapped) {
@@ -84,23 +86,29 @@ std::string quoted(const std::string& text) {
 
 }  // namespace
 
-Bridge::Bridge(HttpAddress address, std::chrono::milliseconds timeout)
-    : address_(std::move(address)), timeout_(timeout) {}
+Bridge::Bridge(HttpAddress address, Patience patience)
+    : address_(std::move(address)), patience_(std::move(patience)) {}
 
 Bridge::~Bridge() {
   // A Bridge that does not answer has nothing to be left.
-  if (!orchestration_.empty()) (void)call("exit_orchestration", json::object());
+  if (orchestration_.empty()) return;
+  Patience patience = patience_;
+  const bool has_given_up = patience.has_given_up && patience.has_given_up();
+  if (has_given_up) patience = {.timeout = std::min(patience.timeout, kLastCall)};
+  (void)call("exit_orchestration", json::object(), patience);
 }
 
 std::string Bridge::asked(const std::string& endpoint) const {
   return strCat("Bridge at ", address_.url(), ", asked for ", endpoint, ", ");
 }
 
-absl::StatusOr<json> Bridge::call(const std::string& endpoint, json arguments) {
+absl::StatusOr<json> Bridge::call(const std::string& endpoint, json arguments,
+                                  const Patience& patience) {
   if (!orchestration_.empty()) arguments["orchestration"] = orchestration_;
   const absl::StatusOr<HttpResponse> response = exchange(
-      address_, {.method = "PUT", .target = "/" + endpoint, .json = arguments.dump()}, timeout_);
+      address_, {.method = "PUT", .target = "/" + endpoint, .json = arguments.dump()}, patience);
   const std::string reason(response.status().message());
+  if (absl::IsCancelled(response.status())) return response.status();
   if (absl::IsUnavailable(response.status())) {
     return absl::UnavailableError(
         strCat("no Bridge at ", address_.url(), " (", reason,
@@ -109,7 +117,7 @@ absl::StatusOr<json> Bridge::call(const std::string& endpoint, json arguments) {
   }
   if (absl::IsDeadlineExceeded(response.status())) {
     return absl::DeadlineExceededError(
-        strCat(asked(endpoint), "gave no answer within ", timeout_.count(),
+        strCat(asked(endpoint), "gave no answer within ", patience.timeout.count(),
                " ms; start Bridge again, or wait longer with --timeout SECONDS"));
   }
   if (!response.ok()) {
@@ -144,11 +152,12 @@ absl::StatusOr<json> Bridge::call(const std::string& endpoint, json arguments) {
 }
 
 absl::Status Bridge::checkedCall(const std::string& endpoint, const json& arguments) {
-  return call(endpoint, arguments).status();
+  return call(endpoint, arguments, patience_).status();
 }
 
 absl::Status Bridge::enter() {
-  const absl::StatusOr<json> token = call("enter_orchestration", {{"name", kOrchestration}});
+  const absl::StatusOr<json> token =
+      call("enter_orchestration", {{"name", kOrchestration}}, patience_);
   VIEWLOOM_RETURN_IF_ERROR(token.status());
   if (!token->is_string() || token->get<std::string>().empty()) {
     return absl::FailedPreconditionError(strCat(
@@ -159,7 +168,7 @@ absl::Status Bridge::enter() {
 }
 
 absl::StatusOr<std::vector<BridgeDisplay>> Bridge::displays() {
-  const absl::StatusOr<json> listed = call("available_output_devices", json::object());
+  const absl::StatusOr<json> listed = call("available_output_devices", json::object(), patience_);
   VIEWLOOM_RETURN_IF_ERROR(listed.status());
   std::vector<BridgeDisplay> displays;
   if (listed->is_structured()) {

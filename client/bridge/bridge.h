@@ -38,12 +38,12 @@ struct BridgeDisplay {
 };
 
 // Bridge takes PUT and JSON, and answers everything else with 200 and an empty body. Statuses say
-// what came and what to do: UNAVAILABLE where nobody listens, DEADLINE_EXCEEDED,
+// what came and what to do: UNAVAILABLE where nobody listens, DEADLINE_EXCEEDED, CANCELLED,
 // FAILED_PRECONDITION for answers that no Bridge gives. Thread-safety: none; one owner.
 class Bridge {
  public:
-  Bridge(HttpAddress address, std::chrono::milliseconds timeout);
-  // Leaves the orchestration, if it was entered.
+  Bridge(HttpAddress address, Patience patience);
+  // Leaves the orchestration, if it was entered; within 0.3 s if the caller has given up.
   ~Bridge();
   Bridge(const Bridge&) = delete;
   Bridge& operator=(const Bridge&) = delete;
@@ -58,12 +58,13 @@ class Bridge {
 
  private:
   // The payload's value.
-  absl::StatusOr<nlohmann::json> call(const std::string& endpoint, nlohmann::json arguments);
+  absl::StatusOr<nlohmann::json> call(const std::string& endpoint, nlohmann::json arguments,
+                                      const Patience& patience);
   absl::Status checkedCall(const std::string& endpoint, const nlohmann::json& arguments);
   std::string asked(const std::string& endpoint) const;
 
   const HttpAddress address_;
-  const std::chrono::milliseconds timeout_;
+  const Patience patience_;
   std::string orchestration_;  // empty before enter()
   uint64_t play_count_ = 0;
 };

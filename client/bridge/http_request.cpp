@@ -2,8 +2,10 @@
 #include "bridge/http_request.h"
 
 #include <algorithm>
+#include <exception>
 #include <future>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -52,12 +54,64 @@ bool readAuthority(std::string_view text, HttpAddress& address) {
   return true;
 }
 
-// Runs one operation to its end; throws its error.
-template <typename Result>
-Result finish(net::io_context& io, std::future<Result> operation) {
-  io.restart();
-  io.run();
-  return operation.get();
+constexpr std::chrono::milliseconds kTick{20};  // how soon a caller that gives up is heard
+
+using Endpoints = net::ip::tcp::resolver::results_type;
+
+// One exchange: what its operations run on, and when they are over.
+class Exchange {
+ public:
+  Exchange(net::io_context& io, const Patience& patience)
+      : io_(io), patience_(patience), end_(std::chrono::steady_clock::now() + patience.timeout) {}
+
+  std::chrono::steady_clock::time_point end() const { return end_; }
+
+  void throwIfOver() const {
+    throwIfGivenUp();
+    if (std::chrono::steady_clock::now() >= end_) {
+      throw boost::system::system_error(beast::error::timeout);
+    }
+  }
+
+  // Runs one operation of the stream to its end; throws its error.
+  template <typename Result>
+  Result finish(beast::tcp_stream& stream, std::future<Result> operation) {
+    io_.restart();
+    while (!io_.stopped()) {
+      io_.run_for(kTick);
+      if (hasGivenUp()) stream.close();  // ends the operation
+    }
+    throwIfGivenUp();
+    return operation.get();
+  }
+
+ private:
+  bool hasGivenUp() const { return patience_.has_given_up && patience_.has_given_up(); }
+  void throwIfGivenUp() const {
+    if (hasGivenUp()) throw boost::system::system_error(net::error::operation_aborted);
+  }
+
+  net::io_context& io_;
+  const Patience& patience_;
+  const std::chrono::steady_clock::time_point end_;
+};
+
+// Looks up a name. A look-up cannot be broken off, so one that lasts too long is left to its
+// thread.
+Endpoints resolved(const HttpAddress& address, const Exchange& exchange) {
+  std::promise<Endpoints> promise;
+  std::future<Endpoints> found = promise.get_future();
+  std::thread([promise = std::move(promise), host = address.host,
+               port = std::to_string(address.port)]() mutable {
+    try {
+      net::io_context io;
+      promise.set_value(net::ip::tcp::resolver(io).resolve(host, port));
+    } catch (...) {
+      promise.set_exception(std::current_exception());
+    }
+  }).detach();
+  while (found.wait_for(kTick) != std::future_status::ready) exchange.throwIfOver();
+  return found.get();
 }
 
 http::request<http::string_body> messageOf(const HttpAddress& address, const HttpRequest& request) {
@@ -76,13 +130,14 @@ http::request<http::string_body> messageOf(const HttpAddress& address, const Htt
 }
 
 template <typename Stream>
-HttpResponse talk(net::io_context& io, Stream& stream,
+HttpResponse talk(Exchange& exchange, Stream& stream,
                   const http::request<http::string_body>& message) {
-  finish(io, http::async_write(stream, message, net::use_future));
+  beast::tcp_stream& plain = beast::get_lowest_layer(stream);
+  exchange.finish(plain, http::async_write(stream, message, net::use_future));
   http::response_parser<http::string_body> parser;
   parser.body_limit(kBodyBytesMax);
   beast::flat_buffer buffer;
-  finish(io, http::async_read(stream, buffer, parser, net::use_future));
+  exchange.finish(plain, http::async_read(stream, buffer, parser, net::use_future));
   http::response<http::string_body> answer = parser.release();
   const auto location = answer[http::field::location];
   return {.status = answer.result_int(),
@@ -104,7 +159,7 @@ std::vector<Certificate> chainOf(SSL* connection) {
 
 // The handshake proves that the server has the key of its certificate; TlsParts::judge says whose
 // certificate it is.
-absl::StatusOr<HttpResponse> talkEncrypted(net::io_context& io, beast::tcp_stream plain,
+absl::StatusOr<HttpResponse> talkEncrypted(Exchange& exchange, beast::tcp_stream plain,
                                            const HttpAddress& address,
                                            const http::request<http::string_body>& message) {
   const TlsParts& parts = *address.tls;
@@ -119,26 +174,29 @@ absl::StatusOr<HttpResponse> talkEncrypted(net::io_context& io, beast::tcp_strea
   boost::system::error_code no_address;
   net::ip::make_address(address.host, no_address);
   if (no_address) SSL_set_tlsext_host_name(stream.native_handle(), address.host.c_str());
-  finish(io, stream.async_handshake(net::ssl::stream_base::client, net::use_future));
+  exchange.finish(beast::get_lowest_layer(stream),
+                  stream.async_handshake(net::ssl::stream_base::client, net::use_future));
   VIEWLOOM_RETURN_IF_ERROR(parts.judge(chainOf(stream.native_handle()), address.host));
-  return talk(io, stream, message);
+  return talk(exchange, stream, message);
 }
 
 absl::StatusOr<HttpResponse> exchangeOrThrow(const HttpAddress& address, const HttpRequest& request,
-                                             std::chrono::milliseconds timeout) {
+                                             const Patience& patience) {
   net::io_context io;
-  net::ip::tcp::resolver resolver(io);
-  const auto endpoints = resolver.resolve(address.host, std::to_string(address.port));
+  Exchange exchange(io, patience);
+  exchange.throwIfOver();
+  const Endpoints endpoints = resolved(address, exchange);
   beast::tcp_stream stream(io);
-  stream.expires_after(timeout);
-  finish(io, stream.async_connect(endpoints, net::use_future));
+  stream.expires_at(exchange.end());
+  exchange.finish(stream, stream.async_connect(endpoints, net::use_future));
   const http::request<http::string_body> message = messageOf(address, request);
-  if (address.tls == nullptr) return talk(io, stream, message);
-  return talkEncrypted(io, std::move(stream), address, message);
+  if (address.tls == nullptr) return talk(exchange, stream, message);
+  return talkEncrypted(exchange, std::move(stream), address, message);
 }
 
 absl::Status statusOf(const boost::system::error_code& error) {
   const std::string reason = error.message();
+  if (error == net::error::operation_aborted) return absl::CancelledError("given up");
   if (error == beast::error::timeout) return absl::DeadlineExceededError(reason);
   const bool is_broken =
       error.category() == http::make_error_code(http::error::bad_method).category();
@@ -171,9 +229,9 @@ absl::StatusOr<HttpAddress> parseHttpAddress(std::string_view text, uint16_t def
 }
 
 absl::StatusOr<HttpResponse> exchange(const HttpAddress& address, const HttpRequest& request,
-                                      std::chrono::milliseconds timeout) {
+                                      const Patience& patience) {
   try {
-    return exchangeOrThrow(address, request, timeout);
+    return exchangeOrThrow(address, request, patience);
   } catch (const boost::system::system_error& error) {
     return statusOf(error.code());
   }

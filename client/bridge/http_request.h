@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -45,11 +46,18 @@ struct HttpResponse {
   bool isOk() const { return status == 200; }
 };
 
-// Blocks until the answer is there, at most so long (looking up a name takes its own time).
-// UNAVAILABLE when nobody can be reached, DEADLINE_EXCEEDED, DATA_LOSS for an answer that is no
-// HTTP or longer than 4 MiB, UNAUTHENTICATED where the server is not the one that is known. Nothing
-// is sent to such a server. Thread-safety: may be called from any thread.
+// How long an answer is waited for.
+struct Patience {
+  std::chrono::milliseconds timeout{15'000};
+  // Whether the caller has given up; asked every 20 ms on the thread that waits. Empty = never.
+  std::function<bool()> has_given_up = {};
+};
+
+// Blocks until the answer is there. UNAVAILABLE when nobody can be reached, DEADLINE_EXCEEDED,
+// CANCELLED when the caller has given up, DATA_LOSS for an answer that is no HTTP or longer than
+// 4 MiB, UNAUTHENTICATED where the server is not the one that is known. Nothing is sent to such a
+// server. Thread-safety: may be called from any thread.
 absl::StatusOr<HttpResponse> exchange(const HttpAddress& address, const HttpRequest& request,
-                                      std::chrono::milliseconds timeout);
+                                      const Patience& patience);
 
 }  // namespace viewloom::bridge

@@ -58,17 +58,18 @@ std::string withExtension(const std::string& target, std::string_view extension)
 }
 
 absl::StatusOr<HttpResponse> get(const HttpAddress& page, const std::string& target,
-                                 const std::string& token, std::chrono::milliseconds timeout) {
+                                 const std::string& token, const Patience& patience) {
   absl::StatusOr<HttpResponse> response =
-      exchange(page, {.method = "GET", .target = target, .json = "", .token = token}, timeout);
+      exchange(page, {.method = "GET", .target = target, .json = "", .token = token}, patience);
   if (response.ok()) return response;
   const std::string reason(response.status().message());
   if (absl::IsDeadlineExceeded(response.status())) {
     return absl::DeadlineExceededError(strCat("the page at ", page.url(), " gave no answer within ",
-                                              timeout.count(),
+                                              patience.timeout.count(),
                                               " ms; wait longer with --timeout SECONDS"));
   }
-  if (absl::IsUnauthenticated(response.status())) return response.status();
+  const absl::Status& status = response.status();
+  if (absl::IsUnauthenticated(status) || absl::IsCancelled(status)) return status;
   return absl::UnavailableError(strCat("no page of viewloomd at ", page.url(), " (", reason,
                                        "); start `viewloomd serve`, or name its page with "
                                        "--address http://HOST:PORT, or https://HOST:PORT for TLS"));
@@ -96,10 +97,9 @@ absl::Status refused(const HttpAddress& page, const HttpResponse& response) {
 
 // The address with a link, which shows the picture to those who have no token.
 absl::StatusOr<std::string> signedLink(const HttpAddress& page, const std::string& target,
-                                       const std::string& token,
-                                       std::chrono::milliseconds timeout) {
+                                       const std::string& token, const Patience& patience) {
   const absl::StatusOr<HttpResponse> response =
-      get(page, strCat("/api/link?seconds=3600&target=", percentEncoded(target)), token, timeout);
+      get(page, strCat("/api/link?seconds=3600&target=", percentEncoded(target)), token, patience);
   VIEWLOOM_RETURN_IF_ERROR(response.status());
   const json link = json::parse(response->body, nullptr, false);
   const json url = link.is_object() ? link.value("url", json()) : json();
@@ -110,14 +110,14 @@ absl::StatusOr<std::string> signedLink(const HttpAddress& page, const std::strin
 }  // namespace
 
 absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQuery& query,
-                                         std::chrono::milliseconds timeout) {
+                                         const Patience& patience) {
   VIEWLOOM_RETURN_IF_ERROR(checkName("stream", query.stream));
   std::string target = targetOf(query);
-  absl::StatusOr<HttpResponse> response = get(page, target, query.token, timeout);
+  absl::StatusOr<HttpResponse> response = get(page, target, query.token, patience);
   VIEWLOOM_RETURN_IF_ERROR(response.status());
   if (response->status == kHttpFound) {  // to the suffix as the server writes it
     target = withExtension(followed(target, response->location), ".json");
-    response = get(page, target, query.token, timeout);
+    response = get(page, target, query.token, patience);
     VIEWLOOM_RETURN_IF_ERROR(response.status());
   }
   const json layout = parseAnswer(response->body);
@@ -135,7 +135,7 @@ absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQue
   std::string shown = withExtension(target, query.is_motion ? ".mjpg" : ".jpg");
   if (query.is_motion) shown.replace(0, std::string_view("/still/").size(), "/stream/");
   if (!query.token.empty()) {
-    const absl::StatusOr<std::string> link = signedLink(page, shown, query.token, timeout);
+    const absl::StatusOr<std::string> link = signedLink(page, shown, query.token, patience);
     VIEWLOOM_RETURN_IF_ERROR(link.status());
     shown = *link;
   }

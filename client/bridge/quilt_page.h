@@ -2,7 +2,6 @@
 // Asks the page of a viewloomd at which address a stream's quilt is.
 #pragma once
 
-#include <chrono>
 #include <string>
 
 #include "base/status.h"
@@ -21,9 +20,9 @@ struct QuiltQuery {
 };
 
 // Waits until there is an atlas to show. UNAVAILABLE where nobody listens, INVALID_ARGUMENT for a
-// name that cannot be one, DEADLINE_EXCEEDED, FAILED_PRECONDITION with the server's own words where
-// it refuses. Thread-safety: may be called from any thread.
+// name that cannot be one, DEADLINE_EXCEEDED, CANCELLED, FAILED_PRECONDITION with the server's own
+// words where it refuses. Thread-safety: may be called from any thread.
 absl::StatusOr<AddressedQuilt> findQuilt(const HttpAddress& page, const QuiltQuery& query,
-                                         std::chrono::milliseconds timeout);
+                                         const Patience& patience);
 
 }  // namespace viewloom::bridge

@@ -9,7 +9,6 @@
 
 #include "base/str_cat.h"
 #include "cli/display_options.h"
-#include "cli/interrupt.h"
 #include "cli/print_json.h"
 #include "cli/report_error.h"
 #include "cli/server_options.h"
@@ -104,7 +103,6 @@ int advise(const AdviseOptions& options, const CommonOptions& common) {
     reportError(request.status(), common);
     return kExitUsage;
   }
-  leaveInterrupts();  // a server that hangs keeps nobody waiting
   const auto advice = Catalog(channelTo(common)).adviseSource(*request);
   if (!advice.ok()) return reportError(advice.status(), common);
   if (!options.as_json) {

@@ -53,6 +53,10 @@ std::chrono::milliseconds milliseconds(double seconds) {
   return std::chrono::milliseconds(static_cast<int64_t>(1e3 * seconds));
 }
 
+bridge::Patience patienceOf(const CastOptions& options) {
+  return {.timeout = milliseconds(options.timeout_s), .has_given_up = &isInterrupted};
+}
+
 int fail(const absl::Status& status) {
   std::fprintf(stderr, "viewloom: %s\n",
                printable({status.message().data(), status.message().size()}, true).c_str());
@@ -115,7 +119,22 @@ std::string shownAddress(const std::string& uri) {
   return printable(link == std::string::npos ? uri : strCat(uri.substr(0, link), "link=..."));
 }
 
-// Shows the quilt, and again every so often, until it is interrupted.
+absl::Status showQuilt(const CastOptions& options, const HttpAddress& page, const QuiltQuery& query,
+                       const BridgeDisplay& display, absl::StatusOr<AddressedQuilt>& quilt,
+                       Bridge& to) {
+  // A link expires, other addresses stay.
+  if (!quilt.ok() || !query.token.empty()) {
+    quilt = bridge::findQuilt(page, query, patienceOf(options));
+    VIEWLOOM_RETURN_IF_ERROR(quilt.status());
+  }
+  VIEWLOOM_RETURN_IF_ERROR(to.play(*quilt, display.index));
+  std::printf("%s shows %s\n", printable(display.name).c_str(), shownAddress(quilt->uri).c_str());
+  std::fflush(stdout);
+  return absl::OkStatus();
+}
+
+// Shows the quilt, and again every so often, until it is interrupted. CANCELLED if that comes
+// before the first time.
 absl::Status cast(const CastOptions& options, const HttpAddress& page, const std::string& token,
                   Bridge& to) {
   VIEWLOOM_RETURN_IF_ERROR(to.enter());
@@ -127,16 +146,12 @@ absl::Status cast(const CastOptions& options, const HttpAddress& page, const std
   VIEWLOOM_RETURN_IF_ERROR(query.status());
   query->token = token;
   absl::StatusOr<AddressedQuilt> quilt = absl::UnknownError("not asked for yet");
+  bool has_shown = false;
   do {
-    // A link expires, other addresses stay.
-    if (!quilt.ok() || !token.empty()) {
-      quilt = bridge::findQuilt(page, *query, milliseconds(options.timeout_s));
-      VIEWLOOM_RETURN_IF_ERROR(quilt.status());
-    }
-    VIEWLOOM_RETURN_IF_ERROR(to.play(*quilt, display->index));
-    std::printf("%s shows %s\n", printable(display->name).c_str(),
-                shownAddress(quilt->uri).c_str());
-    std::fflush(stdout);
+    const absl::Status shown = showQuilt(options, page, *query, *display, quilt, to);
+    if (absl::IsCancelled(shown) && has_shown) break;
+    VIEWLOOM_RETURN_IF_ERROR(shown);
+    has_shown = true;
     const auto due = std::chrono::steady_clock::now() + milliseconds(options.every_s);
     while (!isInterrupted() && std::chrono::steady_clock::now() < due) {
       std::this_thread::sleep_for(kTick);
@@ -171,8 +186,12 @@ int run(const CastOptions& options, const CommonOptions& common) {
                " runs on another machine and cannot reach this address. Start viewloomd on an "
                "address of the network (--http.address), and give that address with --address")));
   }
-  Bridge to(*bridge_address, milliseconds(options.timeout_s));
+  catchInterrupts();
+  Bridge to(*bridge_address, patienceOf(options));
   const absl::Status status = cast(options, *page, common.token, to);
+  if (absl::IsCancelled(status)) {
+    return fail(absl::CancelledError("interrupted before the display showed the stream"));
+  }
   return status.ok() ? int{kExitDone} : fail(status);
 }
 

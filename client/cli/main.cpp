@@ -35,7 +35,7 @@ int run(int argc, char** argv) {
     return kExitDone;
   }
   if (const std::optional<int> code = app.parse(argc, argv)) return *code;
-  catchInterrupts();
+  surviveFileSizeLimit();
   for (const NamedCommand& command : commands) {
     if (!command.syntax.wasNamed()) continue;
     const auto code = command.calls_server ? readServerOptions(common) : std::nullopt;

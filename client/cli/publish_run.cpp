@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "base/output_file.h"
@@ -21,9 +22,9 @@
 namespace viewloom::cli {
 namespace {
 
-constexpr int64_t kTick_ns = 20'000'000;            // how soon an interrupt or a due frame is seen
-constexpr int64_t kFinish_ns = 120'000'000'000;     // for the reports of the last frames
-constexpr int64_t kInterrupted_ns = 1'000'000'000;  // the same after Ctrl-C
+constexpr int64_t kTick_ns = 20'000'000;          // how soon an interrupt or a due frame is seen
+constexpr int64_t kFinish_ns = 120'000'000'000;   // for the reports of the last frames
+constexpr int64_t kInterrupted_ns = 700'000'000;  // the same after Ctrl-C
 
 class PublishRun {
  public:
@@ -35,6 +36,7 @@ class PublishRun {
     int code = publish();
     say(feed_->takeLastNotes());
     publisher_.reset();  // no further frame is sent
+    limit_.reset();      // only the disk is waited for, and a recording is not given up
     const bool was_kept = sent_.failure().ok();
     const absl::Status recorded = sent_.complete();
     if (!recorded.ok() && (code == kExitDone || !was_kept)) code = fail(recorded, kExitFailed);
@@ -49,10 +51,12 @@ class PublishRun {
     }
     absl::StatusOr<std::optional<WireFrame>> frame = nextFrame(0);
     if (!frame.ok()) return fail(frame.status(), kExitUsage);
+    catchInterrupts();
     if (!options_.record_file.empty()) {
       const absl::Status recording = sent_.record(options_.record_file);
       if (!recording.ok()) return fail(recording, kExitUsage);
     }
+    limit_.emplace([this] { sent_.complete().IgnoreError(); });
     publisher_ = std::make_unique<Publisher>(channelTo(common_),
                                              PublisherOptions{.stream = options_.stream,
                                                               .session_id = options_.session_id,
@@ -101,7 +105,7 @@ class PublishRun {
                                            std::lock_guard lock(mutex_);
                                            given_up_ = reason;
                                          })](const ConnectionEvent& event) {
-                  is_connected_ = event.kind == ConnectionEvent::Kind::kConnected;
+                  noteConnection(event);
                   say(event);
                 },
             .on_sent = [this](const CompressedFrame& frame) { sent_.take(frame); }};
@@ -113,6 +117,12 @@ class PublishRun {
     std::lock_guard lock(mutex_);
     if (std::exchange(last_reason_, report.reason()) == report.reason()) return;
     line_.say(strCat("frame ", report.number(), " refused: ", inUserWords(report.reason())));
+  }
+
+  void noteConnection(const ConnectionEvent& event) {
+    is_connected_ = event.kind == ConnectionEvent::Kind::kConnected;
+    std::lock_guard lock(mutex_);
+    missing_ = is_connected_ ? absl::OkStatus() : event.reason;
   }
 
   void noteWanted(const v1::Wanted& wanted) {
@@ -182,17 +192,28 @@ class PublishRun {
     if (std::lock_guard lock(mutex_); !given_up_.ok()) return reportError(given_up_, common_);
     const bool is_interrupted = isInterrupted();
     const absl::Status ended = publisher_->ended().value_or(absl::OkStatus());
-    const bool was_served = publisher_->counts().sent > 0;
     absl::Status status = ended;
-    if (ended.ok() && (was_served || !is_interrupted)) {
+    if (ended.ok() && (is_connected_ || !is_interrupted)) {
       if (!is_interrupted) waitUntilReported();
       if (std::lock_guard lock(mutex_); !given_up_.ok()) return reportError(given_up_, common_);
       status = publisher_->finish(kInterrupted_ns);
     }
     line_.show(this->status());
-    if (isInterrupted() && ended.ok()) return kExitDone;
-    if (!status.ok()) return reportError(status, common_);
-    return publisher_->counts().refused > 0 ? kExitFailed : kExitDone;
+    const PublisherCounts counts = publisher_->counts();
+    const bool is_stopped = isInterrupted() && ended.ok();
+    if (is_stopped && counts.offered > 0 && counts.reported == 0) return failUnsent();
+    if (!is_stopped && !status.ok()) return reportError(status, common_);
+    return counts.refused > 0 ? kExitFailed : kExitDone;
+  }
+
+  // Ctrl-C came before the server had any frame.
+  int failUnsent() const {
+    std::lock_guard lock(mutex_);
+    if (!missing_.ok()) return reportError(missing_, common_);
+    return reportError(is_connected_
+                           ? absl::DeadlineExceededError("it has reported no frame yet")
+                           : absl::UnavailableError("it has not answered, and no frame was sent"),
+                       common_);
   }
 
   const PublishRunOptions& options_;
@@ -208,7 +229,9 @@ class PublishRun {
   OutsideWarnings outside_;
   mutable std::mutex mutex_;
   absl::Status given_up_;                 // --no-retry: why
+  absl::Status missing_;                  // why there is no connection; OK = not known, or there
   std::string last_reason_;               // of a refused frame
+  std::optional<InterruptLimit> limit_;   // keeps the recording
   std::unique_ptr<Publisher> publisher_;  // last: its callbacks use the rest
 };
 

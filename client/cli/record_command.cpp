@@ -44,6 +44,7 @@ class RecordRun {
     if (!display.ok()) return usage(display.status());
     const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options_.display);
     if (!encoding.ok()) return usage(encoding.status());
+    catchInterrupts();
     auto recorder = AtlasRecorder::create(options_.file, clock_);
     if (!recorder.ok()) return usage(recorder.status());
     recorder_ = *std::move(recorder);

@@ -35,6 +35,7 @@ int watchRecording(const RecordedWatch& options, const CommonOptions& common) {
   StatusLine line(true);
   const auto reader = AtlasRecordingReader::open(options.file);
   if (!reader.ok()) return fail(reader.status(), kExitUsage);
+  const InterruptLimit limit;
   AtlasFiles files(options.output);
   Found found;
   std::string description;

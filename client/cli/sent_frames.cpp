@@ -18,6 +18,7 @@ absl::Status SentFrames::record(const std::string& file) {
 
 void SentFrames::take(const CompressedFrame& frame) {
   tellDepth(frame.depth);
+  std::lock_guard recording(recorder_mutex_);
   if (!recorder_ || !failure().ok()) return;
   absl::Status status = recorder_->add(frame.frame);
   std::lock_guard lock(mutex_);
@@ -59,11 +60,13 @@ double SentFrames::depthStep() const {
 }
 
 absl::Status SentFrames::complete() {
-  if (!recorder_) return absl::OkStatus();
+  std::lock_guard recording(recorder_mutex_);
+  const std::unique_ptr<FrameRecorder> recorder = std::move(recorder_);
+  if (!recorder) return absl::OkStatus();
   const absl::Status kept = failure();
-  const absl::Status completed = recorder_->complete();
+  const absl::Status completed = recorder->complete();
   if (!completed.ok()) return kept.ok() ? completed : kept;
-  const uint64_t count = recorder_->frameCount();
+  const uint64_t count = recorder->frameCount();
   line_.say(strCat(file_, ": ", count, count == 1 ? " frame recorded" : " frames recorded"));
   return kept;
 }

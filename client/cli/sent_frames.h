@@ -15,8 +15,8 @@
 
 namespace viewloom::cli {
 
-// Thread-safety: take() belongs to one thread, and has ended before complete(); the others may be
-// called from any thread.
+// Thread-safety: record() comes first, and take() belongs to one thread; the others may be called
+// from any thread.
 class SentFrames {
  public:
   // Line and clock must outlive it.
@@ -29,7 +29,8 @@ class SentFrames {
   absl::Status failure() const;
   // The coarsest of the newest frame, 1/m; 0 = depth goes as it is.
   double depthStep() const;
-  // Ends the recording, if there is one, and says so. Fails when frames were kept no longer.
+  // Ends the recording, if there is one, and says so. Fails when frames were kept no longer. What
+  // is taken afterwards is not kept.
   absl::Status complete();
 
  private:
@@ -38,6 +39,7 @@ class SentFrames {
   StatusLine& line_;
   const Clock& clock_;
   std::string file_;
+  std::mutex recorder_mutex_;                // held while a frame is written; before mutex_
   std::unique_ptr<FrameRecorder> recorder_;  // null = none
   enum class Told { kNothing, kQuantised, kKept } told_ = Told::kNothing;
   mutable std::mutex mutex_;

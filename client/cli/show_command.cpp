@@ -127,6 +127,7 @@ absl::Status tune(const ShowOptions& options, StatusLine& line) {
   if (!calibration->has_value()) {
     return absl::InvalidArgumentError(strCat("--tune", kNoPanel));
   }
+  const InterruptLimit limit;
   return show::tunePanel(
       {.calibration = **calibration,
        .out = options.out_file,
@@ -157,6 +158,7 @@ absl::Status showOn(const ShowOptions& options, const CommonOptions& common, Sta
                     ": the panel's calibration says what its pixels show. For a quilt, give "
                     "--mode weave"));
   }
+  const InterruptLimit limit;
   StreamWait waiting(line, common, options.stream);
   return show::showStream(channelTo(common), *session,
                           {.is_interrupted = &isInterrupted,

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cli/commands.h"
 
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -73,6 +72,7 @@ class WatchRun {
     open.set_wait_for_stream(!options_.fails_without_stream);
     if (absl::Status eyes = openEyes(*display); !eyes.ok()) return usage(eyes);
     if (!options_.folder.empty()) files_.emplace(fileOptions(options_.stream));
+    const InterruptLimit limit;
     waiting_.emplace(line_, common_, options_.stream);
     watcher_ = std::make_unique<Watcher>(channelTo(common_), open, callbacks());
     // Only the line says how the server's clock stands: who sees none need not ask.

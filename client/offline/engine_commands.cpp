@@ -8,7 +8,6 @@
 
 #include "base/log.h"
 #include "base/printable.h"
-#include "cli/interrupt.h"
 #include "config/read_config.h"
 #include "gpu/device_error.h"
 #include "offline/offline_commands.h"
@@ -22,7 +21,6 @@ RunCommand withEngineSettings(const usage::Command& command,
   sources->environment = processEnvironment();
   addSettingOptions(command, *sources, beginnings);
   return [name = command.name(), sources, act = std::move(act)](const CommonOptions&) -> int {
-    leaveInterrupts();
     try {
       const Config config = readConfig(*sources);
       setLogLevel(logLevelOf(config.log.level));
