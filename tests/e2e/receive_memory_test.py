@@ -15,8 +15,9 @@ import viewloomd  # takes its argument
 
 CLIENT = sys.argv.pop(1)
 PAGE_BYTES = 4096
-# Frames that warm the server up, and frames that are measured: in parts, whose median counts. On a
-# busy machine the server may once hold more frames than before, and that memory is new once.
+# Frames that warm the server up, and frames that are measured: in parts, whose lower quartile
+# counts. On a busy machine the server holds now more frames, now fewer, and the C library gives
+# an empty arena back. Memory that is given back after every message is new in every part.
 WARM_UP_FRAMES, PART_FRAMES, PARTS = 10, 8, 9
 # The share of the pages a frame fills that may be new ones. With memory given back after every
 # message it was 0.4 to 0.8; kept, 0.003 to 0.02.
@@ -67,7 +68,7 @@ class ReceiveMemory(unittest.TestCase):
         self.addCleanup(replayed.terminate)
         self.wait_for(start)
         shares = [self.new_share(start + (part + 1) * PART_FRAMES) for part in range(PARTS)]
-        self.assertLess(statistics.median(shares), NEW_SHARE_MAX)
+        self.assertLess(statistics.quantiles(shares)[0], NEW_SHARE_MAX)
 
     def new_share(self, frames_end):
         """The share of new pages in the frames from now to `frames_end` since the start."""
