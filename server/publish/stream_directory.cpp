@@ -50,6 +50,21 @@ struct KnownStream {
   ArrivalTimes arrivals;
 };
 
+// The count of the entry in which a frame of that outcome belongs.
+uint64_t& countOf(FrameOutcome outcome, StreamEntry& entry) {
+  switch (outcome) {
+    case FrameOutcome::kReplaced:
+      return entry.replaced_count;
+    case FrameOutcome::kRefused:
+      return entry.refused_count;
+    case FrameOutcome::kTraced:
+    case FrameOutcome::kBuiltWithoutDisplay:
+    case FrameOutcome::kUnchanged:
+      break;
+  }
+  return entry.used_count;
+}
+
 }  // namespace
 
 struct StreamDirectory::State {
@@ -213,12 +228,8 @@ void StreamDirectory::countReceived(const std::string& stream) {
   });
 }
 
-void StreamDirectory::countReplaced(const std::string& stream) {
-  state_->change(stream, [](KnownStream& known) { ++known.entry.replaced_count; });
-}
-
-void StreamDirectory::countRefused(const std::string& stream) {
-  state_->change(stream, [](KnownStream& known) { ++known.entry.refused_count; });
+void StreamDirectory::countReported(const std::string& stream, FrameOutcome outcome) {
+  state_->change(stream, [outcome](KnownStream& known) { ++countOf(outcome, known.entry); });
 }
 
 void StreamDirectory::noteResident(const std::string& stream, uint64_t frame_number, SizePx size_px,

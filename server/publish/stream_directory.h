@@ -11,6 +11,7 @@
 
 #include "base/clock.h"
 #include "base/status.h"
+#include "frame/frame_sink.h"
 #include "frame/size.h"
 #include "frame/stage_times.h"
 
@@ -26,6 +27,7 @@ struct StreamEntry {
   uint64_t received_count = 0;
   uint64_t replaced_count = 0;
   uint64_t refused_count = 0;
+  uint64_t used_count = 0;  // reported, and neither replaced nor refused
   SourceStats stats;
 };
 
@@ -66,8 +68,7 @@ class StreamDirectory {
 
   // Each frame once, by whoever hands out its report.
   void countReceived(const std::string& stream);
-  void countReplaced(const std::string& stream);
-  void countRefused(const std::string& stream);
+  void countReported(const std::string& stream, FrameOutcome outcome);
   void noteResident(const std::string& stream, uint64_t frame_number, SizePx size_px,
                     uint32_t layer_count, const SourceStats& stats);
 

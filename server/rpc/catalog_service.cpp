@@ -79,6 +79,7 @@ v1::StreamEntry entryToProto(const StreamEntry& entry, uint32_t subscriber_count
   proto.set_received_count(entry.received_count);
   proto.set_replaced_count(entry.replaced_count);
   proto.set_refused_count(entry.refused_count);
+  proto.set_used_count(entry.used_count);
   proto.set_subscriber_count(subscriber_count);
   *proto.mutable_stats() = statsToProto(entry.stats);
   return proto;

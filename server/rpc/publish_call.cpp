@@ -27,11 +27,8 @@ absl::Status refuseFirst(const char* message) {
 }
 
 void countOutcome(const IngestParts& parts, const std::string& stream, FrameOutcome outcome) {
-  if (outcome == FrameOutcome::kReplaced) parts.directory.countReplaced(stream);
-  if (outcome == FrameOutcome::kRefused) {
-    parts.directory.countRefused(stream);
-    parts.metrics.frames_refused.add();
-  }
+  parts.directory.countReported(stream, outcome);
+  if (outcome == FrameOutcome::kRefused) parts.metrics.frames_refused.add();
 }
 
 }  // namespace

@@ -25,6 +25,7 @@ json streamJson(const StreamEntry& entry, uint32_t subscriber_count) {
           {"received_count", entry.received_count},
           {"replaced_count", entry.replaced_count},
           {"refused_count", entry.refused_count},
+          {"used_count", entry.used_count},
           {"subscriber_count", subscriber_count}};
 }
 

@@ -208,8 +208,8 @@ class DocumentRun:
             before = file_names(folder)
             return lambda _: file_names(folder) - before
         if sign.kind == "stream":
-            before = self._served.received_count(sign.value)
-            return lambda _: self._served.received_count(sign.value) > before
+            before = self._served.used_count(sign.value)
+            return lambda _: self._served.used_count(sign.value) > before
         if sign.kind == "atlases":
             counts = self._served.atlas_counts()
             return lambda _: any(count > counts.get(display, 0) for display, count in

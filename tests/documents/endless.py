@@ -6,9 +6,9 @@ from typing import NamedTuple
 
 
 class Sign(NamedTuple):
-    """`kind` is "output" (a pattern), "stream" (a name: it has frames), "atlases" (a display gets
-    some), "files" (a folder gets some), "screen" (a picture is on it) or "bridge" (it was told to
-    show something).
+    """`kind` is "output" (a pattern), "stream" (a name: its frames are used), "atlases" (a display
+    gets some), "files" (a folder gets some), "screen" (a picture is on it) or "bridge" (it was told
+    to show something).
 
     `role` is what only one command at a time can be. A command with a role runs until another one
     takes it, or until the end of its block: later commands need it. Others end at once."""

@@ -95,8 +95,9 @@ class Served:
                 raise Failure("the screen still shows a picture of the command before")
             time.sleep(0.1)
 
-    def received_count(self, stream):
-        return next((entry["received_count"] for entry in self.lists.read("streams")
+    def used_count(self, stream):
+        """How many frames of the stream the server has taken, and told their publisher so."""
+        return next((entry["used_count"] for entry in self.lists.read("streams")
                      if entry["name"] == stream), 0)
 
     def atlas_counts(self):
@@ -104,8 +105,8 @@ class Served:
         return {entry["id"]: entry["atlas_count"] for entry in self.lists.read("displays")}
 
     def wait_for_stream(self, command, stream):
-        before = self.received_count(stream)
-        command.wait_for(lambda: self.received_count(stream) > before,
+        before = self.used_count(stream)
+        command.wait_for(lambda: self.used_count(stream) > before,
                          f"frames of the stream {stream}", PATIENCE_S)
 
     def _started(self, text):

@@ -51,6 +51,7 @@ TEST(PublishFrames, reportsEveryFrameExactlyOnce) {
   const StreamEntry entry = entryOf(server, "scene");
   EXPECT_EQ(entry.received_count, kFrameCount);
   EXPECT_EQ(entry.refused_count, 0u);
+  EXPECT_EQ(entry.used_count + entry.replaced_count, kFrameCount);
 }
 
 // A connection that keeps 64 KiB of what its client has not read, as HTTP/2 starts with, and no

@@ -133,8 +133,11 @@ TEST_F(StreamDirectoryTest, listsByNameWithCountsAndStats) {
   const auto a = mustClaim("a");
   directory_.countReceived("b");
   directory_.countReceived("b");
-  directory_.countReplaced("b");
-  directory_.countRefused("b");
+  for (const FrameOutcome outcome :
+       {FrameOutcome::kReplaced, FrameOutcome::kRefused, FrameOutcome::kTraced,
+        FrameOutcome::kBuiltWithoutDisplay, FrameOutcome::kUnchanged}) {
+    directory_.countReported("b", outcome);
+  }
   directory_.countReceived("unknown");
   directory_.noteResident("b", 7, {640, 480}, 2, {.depth_step = 0.5});
   const std::vector<StreamEntry> entries = directory_.list();
@@ -144,6 +147,7 @@ TEST_F(StreamDirectoryTest, listsByNameWithCountsAndStats) {
   EXPECT_EQ(entries[1].received_count, 2u);
   EXPECT_EQ(entries[1].replaced_count, 1u);
   EXPECT_EQ(entries[1].refused_count, 1u);
+  EXPECT_EQ(entries[1].used_count, 3u);
   EXPECT_EQ(entries[1].frame_number, 7u);
   EXPECT_EQ(entries[1].size_px, (SizePx{640, 480}));
   EXPECT_EQ(entries[1].layer_count, 2u);
