@@ -106,13 +106,11 @@ CallEnd Publisher::runCall(const std::stop_token& stop) {
     was_connected_ = false;
     chunk_size_ = {};
     pace_.setRate(0);  // until the server says otherwise
-    again_ = 0;
-    if (!waiting_ && newest_sent_) {
-      waiting_ = std::move(newest_sent_);
-      const uint64_t number = waiting_->header.number();
-      if (number <= last_reported_) again_ = number;
-    }
+    if (!waiting_) waiting_ = std::move(newest_sent_);
     newest_sent_.reset();
+    // It may wait since a call before that found no server.
+    const uint64_t number = waiting_ ? waiting_->header.number() : 0;
+    again_ = number <= last_reported_ ? number : 0;
   }
   grpc::ClientContext context;
   const std::stop_callback cancel(stop, [&] { context.TryCancel(); });

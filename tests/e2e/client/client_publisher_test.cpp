@@ -131,10 +131,18 @@ TEST(ClientPublisher, survivesARestartOfTheServer) {
   callbacks.on_accepted = [&](const v1::PublishAccepted&) {
     if (++connections == 2) came_back.set_value();
   };
+  // The call breaks off, and the next finds no server.
+  std::promise<void> found_none;
+  int lost_count = 0;
+  callbacks.on_connection = [&](const ConnectionEvent& event) {
+    if (event.kind == ConnectionEvent::Kind::kConnected) return;
+    if (++lost_count == 2) found_none.set_value();
+  };
   Publisher publisher = makePublisher(server, {}, callbacks);
   publisher.offer(makeFrame(1));
   has_first.get_future().wait();
   server.stop();
+  found_none.get_future().wait();
   server.start();
   came_back.get_future().wait();
   EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
