@@ -26,9 +26,11 @@ from viewloom.v1 import atlas_pb2
 from viewloom.v1 import display_service_pb2 as display_service
 
 PROGRAM = sys.argv.pop(1)
-DEAF = "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); print(); time.sleep(60)"
-FAULTY = "import signal, sys; signal.signal(signal.SIGTERM, lambda *_: sys.exit(3)); print(); " \
-         "signal.pause()"
+# They say that they are there.
+DEAF = "import signal, time; signal.signal(signal.SIGTERM, signal.SIG_IGN); " \
+       "print(flush=True); time.sleep(60)"
+FAULTY = "import signal, sys; signal.signal(signal.SIGTERM, lambda *_: sys.exit(3)); " \
+         "print(flush=True); signal.pause()"
 BEFORE = """
 viewloom_piece_seconds_bucket{work="trace",le="0.01"} 10
 viewloom_piece_seconds_bucket{work="trace",le="0.03"} 10
