@@ -45,7 +45,7 @@ double secondsUntilInterrupted(const HungServer& server, const std::string& afte
 
 TEST(Interrupt, endsEveryCommandWithinASecond) {
   const HungServer server;
-  const std::string out = std::string(::testing::TempDir()) + "interrupt_test.vlr";
+  const std::string out = ::testing::TempDir() + "interrupt-" + std::to_string(getpid()) + ".vlr";
   // By then, the command waits for the server and has not given up yet.
   const std::string before_s = "1.5";
   for (const std::string& arguments :

@@ -2,6 +2,7 @@
 #include "admission/machine_memory.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -22,7 +23,8 @@ class MachineMemory : public testing::Test {
     std::ofstream(root_ / path) << text;
   }
 
-  const fs::path root_ = fs::path(testing::TempDir()) / "viewloom_machine_memory_test";
+  const fs::path root_ =
+      fs::path(testing::TempDir()) / ("viewloom_machine_memory_" + std::to_string(getpid()));
 };
 
 constexpr const char* kMemory = "MemFree:  1 kB\nMemTotal:       4194304 kB\nBuffers: 7 kB\n";

@@ -3,10 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <future>
+#include <string>
 #include <vector>
 
 namespace viewloom::eye_feed_test {
@@ -58,7 +60,8 @@ TEST(EyeFeed, saysWhatALineLacks) {
 }
 
 TEST(EyeFeed, givesTheLinesOfAFileInOrderAndSaysWhichIsBad) {
-  const std::string file = testing::TempDir() + "eye_feed_test.jsonl";
+  const std::string file =
+      testing::TempDir() + "eye_feed_test-" + std::to_string(getpid()) + ".jsonl";
   std::ofstream(file) << R"({"time_ns": 9000000000000000000, "left": [1,0,0], "right": [2,0,0]})"
                       << "\n\n"
                       << R"({"time_ns": -9000000000000000000, "left": [3,0,0], "right": [4,0,0]})"
@@ -89,7 +92,8 @@ TEST(EyePoses, refuseALineThatNestsDeeply) {
 }
 
 TEST(EyeFeed, refusesALineWithoutEnd) {
-  const std::string file = testing::TempDir() + "eye_feed_long.jsonl";
+  const std::string file =
+      testing::TempDir() + "eye_feed_long-" + std::to_string(getpid()) + ".jsonl";
   std::ofstream(file) << std::string(100'000, ' ');
   std::promise<absl::Status> failed;
   auto feed = EyeFeed::open(file);
@@ -102,7 +106,8 @@ TEST(EyeFeed, refusesALineWithoutEnd) {
 }
 
 TEST(EyeFeed, stopsWhileALineIsNotDue) {
-  const std::string file = testing::TempDir() + "eye_feed_later.jsonl";
+  const std::string file =
+      testing::TempDir() + "eye_feed_later-" + std::to_string(getpid()) + ".jsonl";
   std::ofstream(file) << R"({"time_ns": 0, "left": [1,0,0], "right": [2,0,0]})"
                       << "\n"
                       << R"({"time_ns": 3600000000000, "left": [3,0,0], "right": [4,0,0]})";

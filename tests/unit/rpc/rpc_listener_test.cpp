@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
+#include <string>
 
 #include "rpc/listening_sockets.h"
 
@@ -149,7 +150,7 @@ TEST(ListeningSockets, takeTheSamePortOnAllAddressesOfAHost) {
 }
 
 TEST(ListeningSockets, replaceASocketAndNoOtherFile) {
-  const std::string path = testing::TempDir() + "viewloom-listener";
+  const std::string path = testing::TempDir() + "viewloom-listener-" + std::to_string(getpid());
   std::filesystem::remove(path);
   const std::string address = "unix:" + path;
   const ListeningSockets first = openListeningSockets(address);
