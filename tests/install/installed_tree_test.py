@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Programs, library, headers, package files, protos, unit and Python package work as installed."""
 
+import fnmatch
 import pathlib
 import re
 import shutil
@@ -71,6 +72,22 @@ class InstalledTree(unittest.TestCase):
         self.assertEqual({path.name for path in (PREFIX / "include/viewloom/v1").iterdir()
                           if ".grpc." not in path.name},
                          {name.replace(".proto", ".pb.h") for name in sources})
+
+    def test_each_file_is_in_a_debian_package(self):
+        # Debian has other places for libraries, completions and Python packages.
+        debian = {"lib/*/": "lib*/", "zsh/vendor-completions": "zsh/*",
+                  "python3/dist-packages": "python3*/*-packages"}
+        patterns = []
+        for path in (ROOT / "deploy/debian").glob("*.install"):
+            for line in path.read_text(encoding="utf-8").splitlines():
+                pattern = line.split()[0]
+                for place, any_place in debian.items():
+                    pattern = pattern.replace(place, any_place)
+                patterns += [pattern, pattern + "/*"]
+        there = [f"usr/{path.relative_to(PREFIX)}" for path in PREFIX.rglob("*")
+                 if not path.is_dir()]
+        self.assertEqual([name for name in there if not any(
+            fnmatch.fnmatch(name, pattern) for pattern in patterns)], [])
 
     def test_the_unit_runs_the_installed_server_with_the_installed_settings(self):
         unit = (PREFIX / "lib/systemd/system/viewloomd.service").read_text(encoding="utf-8")
