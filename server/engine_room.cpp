@@ -46,8 +46,9 @@ class DeviceRoom final : public EngineRoom {
   void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override {
     pipeline_.offerFrame(origin, std::move(frame), std::move(report));
   }
-  bool isFull(const std::string& stream) const override { return pipeline_.isFull(stream); }
-  void onRoom(std::function<void()> then) override { pipeline_.onRoom(std::move(then)); }
+  bool wantsFrame(const std::string& stream) override { return pipeline_.wantsFrame(stream); }
+  void onWanted(std::function<void()> then) override { pipeline_.onWanted(std::move(then)); }
+  void noteLost(const std::string& stream) override { pipeline_.noteLost(stream); }
   void forgetStream(const std::string& stream) override { pipeline_.forgetStream(stream); }
   void serveDisplays(const std::string& stream) override { pipeline_.serveDisplays(stream); }
   void serveEyes(uint64_t display_id) override { pipeline_.serveEyes(display_id); }

@@ -144,7 +144,7 @@ void Service::Parts::connect() {
   broadcaster.onEyesServed([this](const std::string& stream) {
     if (RpcServer* const server = open_rpc) server->demandChanged(stream);
   });
-  engine_room->onRoom([this] { intake.resume(); });
+  engine_room->onWanted([this] { intake.resume(); });
   directory.onRoomNeeded([this](const std::string& stream) {
     if (broadcaster.subscriberCount(stream) > 0) return false;
     engine_room->forgetStream(stream);

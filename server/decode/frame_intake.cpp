@@ -150,10 +150,10 @@ struct FrameIntake::State {
     return nullptr;
   }
 
-  // False: no stream has a frame for which there is room.
+  // False: no stream has a frame that is wanted.
   bool openNextFrame(std::unique_lock<std::mutex>& lock) {
     const auto found = std::ranges::find_if(
-        queue, [this](const std::string& name) { return closed || !sink.isFull(name); });
+        queue, [this](const std::string& name) { return closed || sink.wantsFrame(name); });
     if (found == queue.end()) return false;
     const std::string stream = std::move(*found);
     queue.erase(found);
@@ -166,6 +166,7 @@ struct FrameIntake::State {
       lock.unlock();
       reportRefused(waiting.report, waiting.collected.format.number, outOfMemory());
       waiting.on_taken();
+      sink.noteLost(stream);
       lock.lock();
       finish(stream);
     }
@@ -201,7 +202,10 @@ struct FrameIntake::State {
     const uint64_t session = waiting.collected.session;
     const Payer publisher(waiting.collected.publisher);
     absl::StatusOr<FramePtr> frame = unlessOutOfMemory([&] { return join(open); });
-    if (!frame.ok()) return reportRefused(waiting.report, number, frame.status());
+    if (!frame.ok()) {
+      reportRefused(waiting.report, number, frame.status());
+      return sink.noteLost(open.stream);
+    }
     sink.offerFrame({open.stream, session, publisher}, *std::move(frame),
                     std::move(waiting.report));
   }

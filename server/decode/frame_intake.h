@@ -21,7 +21,7 @@ struct FrameIntakeOptions {
 };
 
 // Decodes on threads of its own, the planes of a frame side by side. Of each stream one frame waits
-// at most: a newer one replaces it, and it is reported kReplaced. It waits while the sink is full:
+// at most: a newer one replaces it, and it is reported kReplaced. It waits until the sink wants it:
 // no frame is decoded that would only be replaced. Large frames leave one thread, if there are
 // several, to small ones. Frames of one stream are decoded
 // one after the other and reach the sink in the order in which they were offered; one that does not
@@ -41,7 +41,7 @@ class FrameIntake {
   void offer(
       const std::string& stream, CollectedFrame frame, FrameTimes times, ReportFrame report,
       std::function<void()> on_taken = [] {});
-  // The sink may have room where it had none.
+  // The sink may want frames that it did not want.
   void resume();
 
   // Waits until every frame that was accepted has gone to the sink or been reported. Frames offered

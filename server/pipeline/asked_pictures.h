@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that wait for a newer frame of their stream before they begin.
+// Pictures whose turn it is, and which wait for the newest frame of their stream to be built.
 #pragma once
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <string>
@@ -15,6 +16,14 @@ class AskedPictures {
   void add(const std::string& stream, const std::string& picture_key) {
     std::lock_guard lock(mutex_);
     keys_.emplace(stream, picture_key);
+  }
+
+  void remove(const std::string& stream, const std::string& picture_key) {
+    std::lock_guard lock(mutex_);
+    const auto [begin, end] = keys_.equal_range(stream);
+    const auto found = std::find_if(
+        begin, end, [&](const auto& picture) { return picture.second == picture_key; });
+    if (found != end) keys_.erase(found);
   }
 
   // Keys of all pictures of the stream; they wait no longer.

@@ -162,8 +162,7 @@ bool PictureLoop::begin(AtlasJob& job) {
   desk_.board.keepOnly(all);
   const UnservedDisplays unserved = desk_.served.find(job);
   const std::vector<ActiveDisplayPtr>& displays = unserved.displays;
-  if (displays.empty()) return false;
-  if (waitsForNewer(job)) return true;
+  if (displays.empty()) return waitsForNewer(job, all);
   const Aim aim = aimOf(*displays.front(), job);
   const auto picture = desk_.pictures.get(*displays.front(), *job.structure, aim, unserved.eyes);
   std::optional<PlannedPicture> planned;
@@ -194,17 +193,16 @@ bool PictureLoop::begin(AtlasJob& job) {
     links_.broadcaster.noteLayout(display->id, (*picture)->layout);
   }
   begun_.add(run);
-  desk_.publisher.begin(std::move(run));
-  desk_.on_begin();
+  desk_.publisher.begin(run);
+  desk_.on_begin(run->job);
   return true;
 }
 
-bool PictureLoop::waitsForNewer(AtlasJob& job) {
-  if (!asksForNewer(job)) return false;
-  job.has_asked = true;
-  if (!desk_.ask_newer(job.structure->stream, job.picture_key)) return false;
-  putBack(std::move(job));
-  return true;
+bool PictureLoop::waitsForNewer(const AtlasJob& job,
+                                const std::vector<ActiveDisplayPtr>& all) const {
+  const bool is_watched =
+      std::ranges::find(all, job.picture_key, &ActiveDisplay::picture_key) != all.end();
+  return is_watched && asksForNewer(job) && desk_.ask_newer(job.structure->stream, job.picture_key);
 }
 
 bool PictureLoop::isReady(const AtlasRun& run) {
@@ -216,13 +214,13 @@ bool PictureLoop::isReady(const AtlasRun& run) {
 }
 
 void PictureLoop::putBack(AtlasJob job) {
-  if (desk_.board.putBack(std::move(job), rank_)) {
+  if (losesPicture(desk_.board.putBack(std::move(job), rank_))) {
     links_.metrics.replaced[HandOver::kTrace].add();
   }
 }
 
 void PictureLoop::handOver(AtlasJob job, size_t engine) {
-  if (desk_.board.handOver(std::move(job), rank_, engine)) {
+  if (losesPicture(desk_.board.handOver(std::move(job), rank_, engine))) {
     links_.metrics.replaced[HandOver::kTrace].add();
   }
   desk_.wake(engine);

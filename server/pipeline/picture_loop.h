@@ -31,11 +31,11 @@ struct PictureDesk {
   EncodePool& encoders;
   FairShares& shares;
   std::function<void(FormOrder order)> prepare_form;
-  // A picture is to begin. True: a newer frame of the stream waits and is built first; then the
-  // picture is finished on the board, to begin with that.
+  // A picture's turn has come, and it has nothing new to show. True: a newer frame of the stream
+  // waits and is built; then the picture is finished on the board, to begin with that.
   std::function<bool(const std::string& stream, const std::string& picture_key)> ask_newer;
-  // An atlas has begun, so that the next frame may be built.
-  std::function<void()> on_begin;
+  // An atlas of the job has begun.
+  std::function<void(const AtlasJob& job)> on_begin;
   // Wakes the loop of an engine: there is a job for it.
   std::function<void(size_t engine)> wake;
   // Displays have come or gone: atlases that nobody watches are to be given up.
@@ -71,8 +71,8 @@ class PictureLoop {
   // False when no atlas comes of the job.
   bool begin(AtlasJob& job);
   void handOver(AtlasJob job, size_t engine);
-  // Whether the job waits for a newer frame, and so does not begin yet; it asks once.
-  bool waitsForNewer(AtlasJob& job);
+  // Whether a newer frame comes for the job, which has nothing new to show; it asks for that.
+  bool waitsForNewer(const AtlasJob& job, const std::vector<ActiveDisplayPtr>& all) const;
   void refuse(const std::vector<ActiveDisplayPtr>& displays, const absl::Status& status) const;
   // A structure of the job whose form for this engine is still to be prepared; nullptr = there is
   // none.

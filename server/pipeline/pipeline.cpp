@@ -8,9 +8,9 @@
 
 #include "base/log.h"
 #include "display/atlas_layout.h"
-#include "pipeline/asked_pictures.h"
 #include "pipeline/encode_pool.h"
 #include "pipeline/frame_builder.h"
+#include "pipeline/frame_entrance.h"
 #include "pipeline/grace.h"
 #include "pipeline/picture_loop.h"
 #include "pipeline/retime_loop.h"
@@ -57,25 +57,32 @@ struct Pipeline::Loops {
              shares,
              [this](FormOrder order) { structures.prepareForm(std::move(order)); },
              [this](const std::string& stream, const std::string& picture_key) {
-               return askNewer(stream, picture_key);
+               return entrance.askNewer(stream, picture_key);
              },
-             [this] { structure_bell.ring(); },
+             [this](const AtlasJob& job) { entrance.noteBegun(job); },
              [this](size_t engine) { engine_wake_ups[engine].ring(); },
              has_demand_changed,
              has_failed},
         streams(links.engines, links.memory, options.structure_slots_per_stream,
                 [this] { structure_bell.ring(); }),
+        entrance(
+            streams, links.broadcaster, links.clock,
+            {.offer = [this](AtlasJob job) { offer(std::move(job)); },
+             .finish = [this](const std::string& picture_key) { board.finish(picture_key); },
+             .on_finished = [this] { ringEngines(); },
+             .ring_builds = [this] { structure_bell.ring(); },
+             .takes_unasked =
+                 [this](const PipelineStream& stream) { return structures.takesUnasked(stream); }}),
         frames(links),
         retimes(links.metrics,
                 [this](AtlasJob job, const DisplaySpec& spec) { retime(std::move(job), spec); }),
         ticks(links, [this](const AtlasJob& job,
                             const ActiveDisplayPtr& display) { return offerTick(job, display); }),
-        structures(
-            {links, streams, frames, board, shares, structure_bell},
-            [this](const PipelineStream& stream, const FrameTicketPtr& ticket) {
-              serve(stream, ticket);
-            },
-            [this](const std::string& stream) { beginAsked(stream); }) {
+        structures({links, streams, frames, board, shares, structure_bell},
+                   {.on_resident = [this](const PipelineStream& stream,
+                                          const FrameTicketPtr& ticket) { serve(stream, ticket); },
+                    .on_served = [this](PipelineStream& stream) { entrance.goOn(stream); },
+                    .let_in = [this](PipelineStream& stream) { entrance.letIn(stream); }}) {
     for (size_t engine = 0; engine < links.engines.all.size(); ++engine) {
       links.engines.all[engine]->connect(
           {.on_room = [this, engine] { engine_wake_ups[engine].ring(); },
@@ -96,10 +103,6 @@ struct Pipeline::Loops {
   // Wakes those whom it concerns. False: there was nothing new.
   bool offer(AtlasJob job);
   void noteComplete(const AtlasRun& run);
-  // A picture could begin. True: the newest frame of its stream is built first.
-  bool askNewer(const std::string& stream, const std::string& picture_key);
-  // The pictures of a stream that waited for that may begin.
-  void beginAsked(const std::string& stream);
   void ringEngines();
   void fail(const std::exception& error);
 
@@ -110,8 +113,6 @@ struct Pipeline::Loops {
   std::atomic<bool> is_draining = false;
   std::atomic<bool> has_failed = false;
   std::atomic<bool> has_demand_changed = false;
-  std::function<void()> on_room = [] {};  // see FrameSink
-  AskedPictures asked;
   FairShares shares;
   AtlasPublisher publisher;
   EncodePool encoders;
@@ -122,6 +123,7 @@ struct Pipeline::Loops {
   const PictureDesk desk;
   std::vector<std::unique_ptr<PictureLoop>> loops;  // one an engine
   StreamTable streams;
+  FrameEntrance entrance;
   const FrameBuilder frames;
   RetimeLoop retimes;  // gives back to the next
   TickLoop ticks;
@@ -141,12 +143,12 @@ void Pipeline::Loops::offerFrame(const FrameOrigin& origin, FramePtr frame,
   stream->notePublisher(origin.publisher);
   const auto replaced = stream->inbox.push({std::move(frame), origin.session, ticket});
   if (replaced) links.metrics.replaced[HandOver::kStructure].add();
-  structure_bell.ring();
+  entrance.noteOffered(stream);
 }
 
 bool Pipeline::Loops::offer(AtlasJob job) {
   const JobBoard::Offered offered = board.offer(std::move(job));
-  if (offered.replaced) links.metrics.replaced[HandOver::kTrace].add();
+  if (losesPicture(offered.replaced)) links.metrics.replaced[HandOver::kTrace].add();
   if (offered.is_news) engine_wake_ups[offered.engine].ring();
   return offered.is_news;
 }
@@ -154,23 +156,6 @@ bool Pipeline::Loops::offer(AtlasJob job) {
 // The next of its picture may begin, whichever engine makes it.
 void Pipeline::Loops::noteComplete(const AtlasRun& run) {
   if (run.isWaitedFor()) board.finish(run.job.picture_key);
-  ringEngines();
-}
-
-bool Pipeline::Loops::askNewer(const std::string& name, const std::string& picture_key) {
-  const PipelineStreamPtr stream = streams.find(name);
-  if (!stream || stream->inbox.empty() || is_draining) return false;
-  asked.add(name, picture_key);
-  stream->is_asked = true;
-  structure_bell.ring();
-  return true;
-}
-
-void Pipeline::Loops::beginAsked(const std::string& stream) {
-  on_room();  // the frame that waited is in hand
-  const std::vector<std::string> picture_keys = asked.takeAll(stream);
-  if (picture_keys.empty()) return;
-  for (const std::string& picture_key : picture_keys) board.finish(picture_key);
   ringEngines();
 }
 
@@ -234,6 +219,7 @@ void Pipeline::offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame
     loops_->offerFrame(origin, std::move(frame), ticket);
   });
   if (status.ok()) return;
+  loops_->entrance.noteLost(origin.stream);
   const std::string reason(status.message());
   if (ticket) return ticket->noteRefused(reason);
   report({.number = number, .outcome = FrameOutcome::kRefused, .reason = reason});
@@ -243,18 +229,20 @@ uint64_t Pipeline::preparedBytes(const FrameFormat& format) const {
   return loops_->links.engines.preparedBytes(format);
 }
 
-bool Pipeline::isFull(const std::string& stream_name) const {
-  const PipelineStreamPtr stream = loops_->streams.find(stream_name);
-  return stream && !stream->inbox.empty();
+bool Pipeline::wantsFrame(const std::string& stream) {
+  return loops_->entrance.wantsFrame(stream);
 }
 
-void Pipeline::onRoom(std::function<void()> then) {
-  loops_->on_room = std::move(then);
+void Pipeline::onWanted(std::function<void()> then) {
+  loops_->entrance.onWanted(std::move(then));
+}
+
+void Pipeline::noteLost(const std::string& stream) {
+  loops_->entrance.noteLost(stream);
 }
 
 void Pipeline::forgetStream(const std::string& stream) {
-  loops_->streams.forget(stream);
-  loops_->beginAsked(stream);  // no newer frame comes
+  loops_->entrance.forget(stream);
 }
 
 void Pipeline::serveDisplays(const std::string& stream_name) {
@@ -281,6 +269,7 @@ void Pipeline::serveEyes(uint64_t display_id) {
 // Work that has begun is finished if that does not take long.
 void Pipeline::drain() {
   if (loops_->is_draining.exchange(true)) return;
+  loops_->entrance.stop();
   const Grace grace(kGrace, [this] {
     loops_->publisher.giveUpAll();
     loops_->ringEngines();

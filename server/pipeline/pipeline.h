@@ -31,8 +31,9 @@ class Pipeline final : public AtlasMaker {
   ~Pipeline() override;
 
   void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override;
-  bool isFull(const std::string& stream) const override;
-  void onRoom(std::function<void()> then) override;
+  bool wantsFrame(const std::string& stream) override;
+  void onWanted(std::function<void()> then) override;
+  void noteLost(const std::string& stream) override;
   void forgetStream(const std::string& stream) override;
   // See Engines::preparedBytes.
   uint64_t preparedBytes(const FrameFormat& format) const;

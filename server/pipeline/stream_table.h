@@ -2,7 +2,6 @@
 // The streams that have frames: what waits of each, and its newest structure.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <map>
 #include <memory>
@@ -18,6 +17,7 @@
 #include "engine/engines.h"
 #include "schedule/build_queue.h"
 #include "schedule/fair_shares.h"
+#include "schedule/frame_door.h"
 #include "schedule/stream_frames.h"
 
 namespace viewloom {
@@ -27,7 +27,8 @@ namespace viewloom {
 // the stream waits.
 inline constexpr uint32_t kHeldByFurtherEngine = 2;
 
-// Thread-safety: inbox, slots, the claim, newest(), setNewest() and setMotion() from any thread;
+// Thread-safety: inbox, door, slots, the claim, newest(), setNewest() and setMotion() from any
+// thread;
 // the other fields are the structure loop's, which has one thread at a time work on a stream.
 class PipelineStream {
  public:
@@ -43,20 +44,20 @@ class PipelineStream {
   ResidentPtr resident() const { return newest().structure; }
   void setNewest(StreamInstant newest);
   void setMotion(const CameraMotion& motion);
-  // One waits to be built; while nobody works on the stream.
-  bool hasFrame() const { return !inbox.empty() || frames.next() != nullptr; }
+  // One is to be built; while nobody works on the stream.
+  bool hasFrame() const { return door.isOpen() && (!inbox.empty() || frames.next() != nullptr); }
   // The publisher pays for its structures.
   void notePublisher(const Payer& publisher);
   Claim claim() const;
 
   const std::string name;
   const uint32_t slot_count;  // without the structure before the newest
-  LatestMailbox<OfferedFrame> inbox;
+  FrameDoor door;
+  LatestMailbox<OfferedFrame> inbox;  // decoded
   SlotPool<FrameForms> slots;
   StreamPreparers preparers;               // of those slots
   StreamTurn turn;                         // under the loop's mutex
   StreamFrames frames;                     // since they were taken from the inbox
-  std::atomic<bool> is_asked = false;      // a picture could begin with a newer frame; any thread's
   CostEstimate px_cost{kBuiltPxStart_ns};  // of a px of a frame
   std::shared_ptr<StreamRetimer> retimer;  // since a frame came in which something moves by itself
 

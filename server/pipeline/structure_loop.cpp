@@ -14,11 +14,8 @@
 #include "pipeline/within_memory.h"
 
 namespace viewloom {
-StructureLoop::StructureLoop(const Links& links, OnResident on_resident, OnServed on_served)
-    : links_(links),
-      on_resident_(std::move(on_resident)),
-      on_served_(std::move(on_served)),
-      queue_(links.shares) {
+StructureLoop::StructureLoop(const Links& links, Events events)
+    : links_(links), events_(std::move(events)), queue_(links.shares) {
   for (const BuildLane lane : {BuildLane::kAny, BuildLane::kShort}) {
     threads_.emplace_back([this, lane](const std::stop_token& stop) {
       nameThread("build");
@@ -29,6 +26,11 @@ StructureLoop::StructureLoop(const Links& links, OnResident on_resident, OnServe
       }
     });
   }
+}
+
+bool StructureLoop::takesUnasked(const PipelineStream& stream) {
+  std::lock_guard lock(mutex_);
+  return !stream.turn.waitUntilNs(demandOf(stream), links_.pipeline.clock.nowNs());
 }
 
 void StructureLoop::prepareForm(FormOrder order) {
@@ -53,6 +55,7 @@ void StructureLoop::run(BuildLane lane, const std::stop_token& stop) {
     Work work;
     const absl::Status status = withinMemory([&] { work = take(look); });
     if (!status.ok()) log(LogLevel::kWarning, "no memory is left to look for frames");
+    for (const PipelineStreamPtr& stream : work.let_in) events_.let_in(*stream);
     if (work.stream) {
       serve(work.stream, look, stop);
     } else if (work.form) {
@@ -72,23 +75,25 @@ StructureLoop::Work StructureLoop::take(const BuildQueue::Look& look) {
   for (const PipelineStreamPtr& stream : streams) {
     builds.push_back({.turn = &stream->turn,
                       .has_frame = [&stream] { return stream->hasFrame(); },
+                      .has_waiting = [&stream] { return stream->door.hasWaiting(); },
                       .demand = [this, &stream] { return demandOf(*stream); },
                       .claim = [&stream] { return stream->claim(); }});
   }
   BuildQueue::Next next = queue_.take(look, builds);
-  return {.stream = next.stream ? streams[*next.stream] : nullptr,
-          .form = std::move(next.form),
-          .until_ns = next.until_ns};
+  Work work{.stream = next.stream ? streams[*next.stream] : nullptr,
+            .form = std::move(next.form),
+            .until_ns = next.until_ns};
+  for (const size_t place : next.let_in) work.let_in.push_back(streams[place]);
+  return work;
 }
 
 StreamDemand StructureLoop::demandOf(const PipelineStream& stream) const {
   const std::vector<ActiveDisplayPtr> displays = links_.pipeline.broadcaster.displays(stream.name);
-  const auto waits = [this](const ActiveDisplayPtr& display) {
-    return !display->spec.temporal && links_.board.isWaiting(display->picture_key);
+  const auto takesAll = [this](const ActiveDisplayPtr& display) {
+    const bool has_eyes = isTracked(display->spec);
+    return display->spec.temporal || (has_eyes && !links_.board.isWaiting(display->picture_key));
   };
-  return {.is_watched = !displays.empty(),
-          .all_wait = std::ranges::all_of(displays, waits),
-          .is_asked = stream.is_asked};
+  return {.is_watched = !displays.empty(), .takes_all = std::ranges::any_of(displays, takesAll)};
 }
 
 void StructureLoop::serve(const FormOrder& form, const std::stop_token& stop) {
@@ -103,10 +108,9 @@ void StructureLoop::serve(const FormOrder& form, const std::stop_token& stop) {
 void StructureLoop::serve(const PipelineStreamPtr& stream, const BuildQueue::Look& look,
                           const std::stop_token& stop) {
   const BuildOutcome outcome = buildNext(stream, look.lane, stop);
-  if (outcome != BuildOutcome::kTooLong) {
-    stream->is_asked = false;
-    on_served_(stream->name);
-  }
+  // Else the frame is still to be built.
+  if (outcome == BuildOutcome::kServed || outcome == BuildOutcome::kNothing) stream->door.close();
+  if (outcome != BuildOutcome::kTooLong) events_.on_served(*stream);
   {
     std::lock_guard lock(mutex_);
     stream->turn.giveBack(outcome, look.change_count);
@@ -202,10 +206,11 @@ bool StructureLoop::dropUnchanged(PipelineStream& stream) const {
   const auto motion = stream.frames.followUnchanged(*resident, links_.pipeline.clock.nowNs());
   if (!motion) return false;
   links_.pipeline.metrics.frames_unchanged.add();
+  stream.turn.noteBuilt(demandOf(stream), links_.pipeline.clock.nowNs());
   const bool was_moving = stream.newest().motion.isMoving();
   stream.setMotion(*motion);
   stream.frames.takeNext().ticket->noteUnchanged(resident->stats);
-  if (was_moving) on_resident_(stream, nullptr);
+  if (was_moving) events_.on_resident(stream, nullptr);
   return true;
 }
 
@@ -253,7 +258,7 @@ void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
   count(*structure, *offered.frame);
   stream.setNewest(stream.frames.becomeResident(std::move(offered.frame), std::move(structure),
                                                 stream.resident(), isInterpolated(stream)));
-  on_resident_(stream, std::move(offered.ticket));
+  events_.on_resident(stream, std::move(offered.ticket));
 }
 
 // Defaults of the stream; tells where they are others now.

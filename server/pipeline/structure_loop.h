@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Turns the newest frame of each stream into its resident structure, in fair shares.
+// Turns the frames of each stream that were let in into its resident structure, in fair shares.
 #pragma once
 
 #include <atomic>
@@ -28,9 +28,15 @@ namespace viewloom {
 // methods may be called from any thread; stop() from one, once.
 class StructureLoop {
  public:
-  // `on_resident` is called on a thread of the loop, for one frame of a stream at a time; the
-  // ticket is of the structure's frame.
-  using OnResident = std::function<void(const PipelineStream& stream, FrameTicketPtr ticket)>;
+  // Called on the loop's threads.
+  struct Events {
+    // For one frame of a stream at a time; the ticket is of the structure's frame.
+    std::function<void(const PipelineStream& stream, FrameTicketPtr ticket)> on_resident;
+    // After each look at a frame of a stream, whatever became of it.
+    std::function<void(PipelineStream& stream)> on_served;
+    // The waiting frame of a stream is to come in although no picture has asked for it.
+    std::function<void(PipelineStream& stream)> let_in;
+  };
 
   // Parts that are used and outlive it.
   struct Links {
@@ -39,15 +45,16 @@ class StructureLoop {
     const FrameBuilder& builder;
     const JobBoard& board;
     FairShares& shares;
-    // Rung when a frame was offered, a slot came back, displays came or went, an atlas has begun.
+    // Rung when a frame waits or has come in, a slot came back, displays came or went, an atlas has
+    // begun.
     ChangeBell& bell;
   };
 
-  // `on_served`: called after each look at a frame of a stream, whatever became of it.
-  using OnServed = std::function<void(const std::string& stream)>;
-
-  StructureLoop(const Links& links, OnResident on_resident, OnServed on_served);
+  StructureLoop(const Links& links, Events events);
   ~StructureLoop() { stop(); }
+
+  // Whether a frame that waits now is built although no picture has asked for it.
+  bool takesUnasked(const PipelineStream& stream);
 
   void prepareForm(FormOrder order);
 
@@ -59,6 +66,7 @@ class StructureLoop {
   struct Work {
     PipelineStreamPtr stream = nullptr;
     std::optional<FormOrder> form = std::nullopt;
+    std::vector<PipelineStreamPtr> let_in = {};
     std::optional<int64_t> until_ns = std::nullopt;  // as BuildQueue::Next
   };
 
@@ -85,8 +93,7 @@ class StructureLoop {
   void count(const ResidentStructure& structure, const Frame& frame) const;
 
   const Links links_;
-  const OnResident on_resident_;
-  const OnServed on_served_;
+  const Events events_;
   std::atomic<uint64_t> last_serial_ = 0;
   std::mutex mutex_;                   // guards what follows, and the turns of streams
   BuildQueue queue_;                   // its costs are anybody's

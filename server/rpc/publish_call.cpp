@@ -33,6 +33,15 @@ void countOutcome(const IngestParts& parts, const std::string& stream, FrameOutc
 
 }  // namespace
 
+template <typename Act>
+void PublishCall::actOrEnd(const Act& act) {
+  const absl::Status status = unlessOutOfMemory([&] {
+    act();
+    return absl::OkStatus();
+  });
+  if (!status.ok()) end(status);
+}
+
 absl::Status PublishCall::handleMessage(grpc::ByteBuffer& bytes) {
   {
     std::lock_guard lock(mutex_);
@@ -158,7 +167,7 @@ void PublishCall::offerFrame() {
     std::lock_guard lock(mutex_);
     if (ending()) return;
     ++unreported_count_;
-    frame_waits_ = true;
+    waits_since_ns_ = times_.last_chunk_ns;
   }
   parts_.directory.countReceived(stream_);
   parts_.metrics.frames_received.add();
@@ -171,25 +180,25 @@ void PublishCall::offerFrame() {
       [weak = weak_from_this(), parts = parts_, stream = stream_](const FrameReport& report) {
         countOutcome(parts, stream, report.outcome);
         const auto call = std::static_pointer_cast<PublishCall>(weak.lock());
-        if (call) call->tell(report);
+        if (call) call->actOrEnd([&] { call->onReport(report); });
       },
       [weak = weak_from_this()] {
-        if (const auto call = weak.lock()) std::static_pointer_cast<PublishCall>(call)->onTaken();
+        const auto call = std::static_pointer_cast<PublishCall>(weak.lock());
+        if (call) call->actOrEnd([&] { call->onTaken(); });
       });
 }
 
-void PublishCall::tell(const FrameReport& report) {
-  const absl::Status status = unlessOutOfMemory([&] {
-    onReport(report);
-    return absl::OkStatus();
-  });
-  if (!status.ok()) end(status);
-}
-
 void PublishCall::onTaken() {
-  std::lock_guard lock(mutex_);
-  frame_waits_ = false;
-  advance();
+  bool has_new_rate = false;
+  {
+    std::lock_guard lock(mutex_);
+    const int64_t now_ns = parts_.clock.nowNs();
+    const int64_t waited_ns = now_ns - waits_since_ns_.value_or(now_ns);
+    waits_since_ns_.reset();
+    advance();
+    has_new_rate = wanted_.noteTurn(waited_ns, now_ns);
+  }
+  if (has_new_rate) refreshWanted();
 }
 
 void PublishCall::onReport(const FrameReport& report) {
@@ -266,7 +275,7 @@ void PublishCall::tick() {
 
 // A frame that would only replace one that waits is not received.
 bool PublishCall::wantsToRead() const {
-  return !frame_waits_ && unreported_count_ + replies_.size() < kOpenReportsMax;
+  return !waits_since_ns_ && unreported_count_ + replies_.size() < kOpenReportsMax;
 }
 
 std::string PublishCall::stream() {

@@ -70,7 +70,6 @@ class PublishCall final : public BidiCall {
   void dropReads() override;
   std::optional<grpc::ByteBuffer> takeMessage() override;
   bool wantsToRead() const override;
-  void onTaken();
   bool mayFinish() const override { return unreported_count_ == 0; }
 
   absl::Status handleChunk(const v1::FrameChunk& chunk);
@@ -79,9 +78,11 @@ class PublishCall final : public BidiCall {
   absl::Status handleHeader(const v1::FrameHeader& header);
   absl::StatusOr<Reservation> admit(const FrameFormat& format);
   void offerFrame();
-  // A report that finds no memory ends the call.
-  void tell(const FrameReport& report);
+  // What finds no memory ends the call.
+  template <typename Act>
+  void actOrEnd(const Act& act);
   void onReport(const FrameReport& report);
+  void onTaken();
 
   const IngestParts parts_;
   const std::string host_;
@@ -100,7 +101,8 @@ class PublishCall final : public BidiCall {
   PublishPlace place_;
   std::deque<grpc::ByteBuffer> replies_;  // accepted, then reports
   size_t unreported_count_ = 0;           // frames taken whose report has not come
-  bool frame_waits_ = false;              // to be decoded: another one would replace it
+  // Since when a frame has waited to be decoded; meanwhile no other is read.
+  std::optional<int64_t> waits_since_ns_;
   WantedMessage wanted_;
   bool has_heartbeats_ = false;  // the publisher sends them, and gets them
   bool heartbeat_is_due_ = false;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace viewloom {
 namespace {
@@ -15,6 +16,12 @@ constexpr double kReplacedShareMax = 0.1;
 // Beyond what is used, so that more can be used when there is time.
 constexpr double kHeadroom = 1.1;
 constexpr double kRiseMax = 4;
+// A publisher is held back whose frames wait for so much of the time, in so many turns at least.
+// One that is not, waits for what is being made of its last frame, if at all.
+constexpr double kWaitedShareMax = 0.75;
+constexpr size_t kTurnsMin = 3;
+// Then the frames that wait, also those on their way, become fewer.
+constexpr double kRelief = 0.9;
 // A moment without a single used frame does not yet tell what is used.
 constexpr double kFallMost = 0.5;
 
@@ -24,14 +31,33 @@ double rounded(double rate_hz) {
   return std::exp(std::round(std::log(rate_hz) / step) * step);
 }
 
+template <typename Events>
+void keepSince(int64_t time_ns, Events& events) {
+  while (!events.empty() && events.front().time_ns < time_ns) events.pop_front();
+}
+
 }  // namespace
 
 bool UsedRate::note(bool is_used, int64_t now_ns) {
   outcomes_.push_back({now_ns, is_used});
-  while (outcomes_.front().time_ns < now_ns - kWindow_ns) outcomes_.pop_front();
-  if (outcomes_.size() < kFramesMin && limit_hz_ == 0) return false;
+  return judge(now_ns);
+}
+
+bool UsedRate::noteTurn(int64_t waited_ns, int64_t now_ns) {
+  turns_.push_back({now_ns, waited_ns});
+  return judge(now_ns);
+}
+
+bool UsedRate::judge(int64_t now_ns) {
+  keepSince(now_ns - kWindow_ns, outcomes_);
+  keepSince(now_ns - kWindow_ns, turns_);
+  if (now_ns - changed_ns_ < kWindow_ns) return false;
+  if (const double held_back_hz = heldBackHz(); held_back_hz > 0) {
+    return lower(held_back_hz * kRelief, now_ns);
+  }
+  if (outcomes_.empty() || (outcomes_.size() < kFramesMin && limit_hz_ == 0)) return false;
   const int64_t span_ns = now_ns - outcomes_.front().time_ns;
-  if (span_ns < kWindow_ns / 2 || now_ns - changed_ns_ < kWindow_ns) return false;
+  if (span_ns < kWindow_ns / 2) return false;
   const auto used_count = double(std::ranges::count_if(outcomes_, &Outcome::is_used));
   const auto count = double(outcomes_.size());
   const double per_second = 1e9 / double(span_ns);
@@ -42,11 +68,25 @@ bool UsedRate::note(bool is_used, int64_t now_ns) {
   return false;
 }
 
+// Turns a second of a publisher that is held back; 0 = it is not.
+double UsedRate::heldBackHz() const {
+  if (turns_.size() < kTurnsMin) return 0;
+  const int64_t span_ns = turns_.back().time_ns - turns_.front().time_ns;
+  if (span_ns < kWindow_ns / 2) return 0;
+  int64_t waited_ns = 0;
+  for (auto turn = std::next(turns_.begin()); turn != turns_.end(); ++turn) {
+    waited_ns += turn->waited_ns;
+  }
+  if (double(waited_ns) < kWaitedShareMax * double(span_ns)) return 0;
+  return double(turns_.size() - 1) * 1e9 / double(span_ns);
+}
+
 // Frames at the old limit say nothing about the new one.
 void UsedRate::change(double limit_hz, int64_t now_ns) {
   limit_hz_ = limit_hz;
   changed_ns_ = now_ns;
   outcomes_.clear();
+  turns_.clear();
 }
 
 bool UsedRate::lower(double rate_hz, int64_t now_ns) {

@@ -7,14 +7,18 @@
 
 namespace viewloom {
 
-// While all frames are used, there is no limit. When some are replaced by newer ones, the limit is
-// a little more than the frames that were used, but at least half of those that came. It rises
-// again while none is replaced, faster and faster.
+// While all frames are used as they come, there is no limit. When some are replaced by newer ones,
+// the limit is a little more than the frames that were used, but at least half of those that came.
+// When frames wait for their turn nearly all the time, so that the publisher is held back and its
+// frames grow old, the limit is a little less than the frames that were used. It rises again while
+// neither happens, faster and faster.
 // Thread-safety: none.
 class UsedRate {
  public:
   // A frame was used, or a newer one has replaced it. True if the limit is another one now.
   bool note(bool is_used, int64_t now_ns);
+  // A frame has waited so long for its turn, and meanwhile no other was received. As above.
+  bool noteTurn(int64_t waited_ns, int64_t now_ns);
   // Forgets everything: the frames are wanted otherwise now.
   void reset() { *this = {}; }
 
@@ -32,11 +36,20 @@ class UsedRate {
     bool is_used = false;
   };
 
+  struct Turn {
+    int64_t time_ns = 0;
+    int64_t waited_ns = 0;
+  };
+
+  bool judge(int64_t now_ns);
+  double heldBackHz() const;
   bool lower(double rate_hz, int64_t now_ns);
   bool raise(double received_hz, int64_t now_ns);
   void change(double limit_hz, int64_t now_ns);
 
-  std::deque<Outcome> outcomes_;  // of the last while, since the limit was changed
+  // Of the last while, since the limit was changed.
+  std::deque<Outcome> outcomes_;
+  std::deque<Turn> turns_;
   double limit_hz_ = 0;
   int64_t changed_ns_ = 0;  // the limit
   double rise_ = kRise;     // factor of the next rise

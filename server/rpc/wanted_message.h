@@ -20,6 +20,9 @@ class WantedMessage {
  public:
   // True if the publisher is to send at another rate.
   bool note(FrameOutcome outcome, int64_t now_ns);
+  bool noteTurn(int64_t waited_ns, int64_t now_ns) {
+    return used_rate_.noteTurn(waited_ns, now_ns);
+  }
   // By the newest atlases of the displays. True if there is a message to be sent.
   bool refresh(const std::vector<AtlasPtr>& atlases, uint32_t display_count);
 

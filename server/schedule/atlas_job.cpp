@@ -24,7 +24,7 @@ Claim claimOf(const AtlasJob& job) {
 }
 
 bool asksForNewer(const AtlasJob& job) {
-  return !job.has_asked && !job.is_tracked && !job.tick;
+  return !job.is_tracked && !job.tick;
 }
 
 int64_t deadlineNs(const DisplaySpec& spec, int64_t now_ns) {
@@ -52,6 +52,14 @@ std::vector<AtlasJob> jobsOfFrame(const ResidentPtr& structure,
                     .asked_ns = now_ns,
                     .payers = display->viewers});
   }
+  return jobs;
+}
+
+std::vector<AtlasJob> jobsForWaiting(const ResidentPtr& resident,
+                                     const std::vector<ActiveDisplayPtr>& displays,
+                                     int64_t now_ns) {
+  std::vector<AtlasJob> jobs = jobsOfFrame(resident, displays, nullptr, now_ns);
+  std::erase_if(jobs, [](const AtlasJob& job) { return !asksForNewer(job); });
   return jobs;
 }
 

@@ -43,7 +43,6 @@ struct AtlasJob {
   int64_t asked_ns = 0;                           // when it was first offered
   ResidentPtr before = nullptr;  // also asked: what it has seen a frame ago, from elsewhere
   Payers payers = {};            // the viewers of its displays
-  bool has_asked = false;        // for a newer frame, when it was to begin
 };
 
 // Lets these pay, too.
@@ -52,9 +51,19 @@ void addPayers(const Payers& more, Payers& payers);
 // The job's claim on the engines' time.
 Claim claimOf(const AtlasJob& job);
 
-// Whether the job asks for a newer frame of its stream before it begins, which it does once. Eyes
-// wait for nothing, and ticks show frames as they are.
+// Whether the job asks for the newest frame of its stream, if it has nothing new to show when it is
+// its turn. Eyes wait for nothing, and ticks show frames as they are.
 bool asksForNewer(const AtlasJob& job);
+
+// Jobs that ask for a frame that waits to be let in, when it is their turn. `resident`: of the
+// stream, which the displays have seen or will.
+std::vector<AtlasJob> jobsForWaiting(const ResidentPtr& resident,
+                                     const std::vector<ActiveDisplayPtr>& displays, int64_t now_ns);
+
+// Whether a frame loses a picture with this job, rather than a picture its turn.
+inline bool losesPicture(const std::optional<AtlasJob>& replaced) {
+  return replaced && replaced->ticket != nullptr;
+}
 
 // Deadline of an atlas that is wanted from now on.
 int64_t deadlineNs(const DisplaySpec& spec, int64_t now_ns);

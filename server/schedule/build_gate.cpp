@@ -6,10 +6,8 @@
 namespace viewloom {
 
 std::optional<int64_t> BuildGate::waitUntilNs(const StreamDemand& demand, int64_t now_ns) const {
-  if (!built_ns_ || demand.is_asked) return std::nullopt;
-  int64_t until_ns = now_ns;
-  if (!demand.is_watched) until_ns = unwatched_ns_;
-  if (demand.is_watched && demand.all_wait) until_ns = *built_ns_ + kHeldFrame_ns;
+  if (!built_ns_ || demand.takes_all) return std::nullopt;
+  const int64_t until_ns = demand.is_watched ? *built_ns_ + kHeldFrame_ns : unwatched_ns_;
   if (until_ns <= now_ns) return std::nullopt;
   return until_ns;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// When the newest frame of a stream is built, so that no structure is made that nobody traces.
+// When the newest frame of a stream is built although no picture has asked for it.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,24 @@ namespace viewloom {
 inline constexpr int64_t kUnwatched_ns = 1'000'000'000;
 // But the first frames after a while are all built.
 inline constexpr int64_t kUnwatchedBurst = 16;
-// While all pictures of a stream wait to begin with the frame that is resident, a newer one waits,
-// and may be replaced: of those that are built meanwhile only the last would be shown. Once one of
-// the pictures could begin, it asks for the newest frame. If none does, the frame is built after
-// this time.
+// A picture asks for the newest frame when it is its turn. If none does, that frame is built after
+// this time, for what is told of the stream.
 inline constexpr int64_t kHeldFrame_ns = 1'000'000'000;
 
 // Displays that wait for the frames of a stream.
 struct StreamDemand {
   bool is_watched = false;
-  bool all_wait = false;  // every picture waits to begin, and has waited for the resident frame
-  bool is_asked = false;  // one of them could begin with a newer frame
+  // One of them shows frames as they come, and asks for none: it has eyes or ticks of its own. If
+  // it has eyes, it has begun with the resident frame.
+  bool takes_all = false;
 };
 
 // One for each stream. Thread-safety: none.
 class BuildGate {
  public:
-  // When the next frame may be built; empty = at once.
+  // When the next frame may be built unasked; empty = at once.
   std::optional<int64_t> waitUntilNs(const StreamDemand& demand, int64_t now_ns) const;
-  // A frame is resident from now on.
+  // A frame was built, or is the resident one once more.
   void noteBuilt(const StreamDemand& demand, int64_t now_ns);
 
  private:

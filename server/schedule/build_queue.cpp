@@ -24,11 +24,13 @@ BuildQueue::Next BuildQueue::take(const Look& look, std::span<const StreamBuild>
   std::vector<const Claim*> claims(streams.size(), nullptr);
   for (size_t i = 0; i < streams.size(); ++i) {
     const StreamBuild& stream = streams[i];
-    if (!stream.turn->mayBeTaken(look.lane, look.change_count) || !stream.has_frame()) continue;
-    if (const auto until_ns = stream.turn->waitUntilNs(stream.demand(), look.now_ns)) {
-      next.until_ns = std::min(next.until_ns.value_or(*until_ns), *until_ns);
-      continue;
+    if (!stream.turn->mayBeTaken(look.lane, look.change_count)) continue;
+    if (stream.has_waiting()) {
+      const auto until_ns = stream.turn->waitUntilNs(stream.demand(), look.now_ns);
+      if (!until_ns) next.let_in.push_back(i);
+      if (until_ns) next.until_ns = std::min(next.until_ns.value_or(*until_ns), *until_ns);
     }
+    if (!stream.has_frame()) continue;
     stream_claims[i] = stream.claim();
     claims[i] = &stream_claims[i];
   }

@@ -44,7 +44,8 @@ class StreamTurn {
   // Whether a thread of this lane may take it. `change_count`: of changes so far that may have made
   // room (ChangeBell).
   bool mayBeTaken(BuildLane lane, uint64_t change_count) const;
-  // When the next frame may be built; empty = at once. Only while nobody works on the stream.
+  // When the next frame may be built unasked; empty = at once. Only while none was let in, or
+  // nobody works on the stream.
   std::optional<int64_t> waitUntilNs(const StreamDemand& demand, int64_t now_ns) const {
     return gate_.waitUntilNs(demand, now_ns);
   }
@@ -54,7 +55,7 @@ class StreamTurn {
   // Nobody may take it from now on until noteReady().
   void awaitReady() { is_awaited_ = true; }
   void noteReady() { is_awaited_ = false; }
-  // A frame is resident from now on. By whoever works on the stream.
+  // As BuildGate. By whoever works on the stream.
   void noteBuilt(const StreamDemand& demand, int64_t now_ns) { gate_.noteBuilt(demand, now_ns); }
 
  private:
@@ -84,7 +85,8 @@ class BuildQueue {
   // A stream. The functions are called where its turn lets it be taken.
   struct StreamBuild {
     StreamTurn* turn = nullptr;
-    std::function<bool()> has_frame;
+    std::function<bool()> has_frame;    // that was let in (FrameDoor)
+    std::function<bool()> has_waiting;  // that was not
     std::function<StreamDemand()> demand;
     std::function<Claim()> claim;
   };
@@ -96,6 +98,7 @@ class BuildQueue {
   };
   // A stream or a form; neither = none may be built.
   struct Next {
+    std::vector<size_t> let_in;    // streams whose waiting frames may come in unasked
     std::optional<size_t> stream;  // place among the streams
     std::optional<FormOrder> form;
     std::optional<int64_t> until_ns;  // when to look again; empty = when something changes

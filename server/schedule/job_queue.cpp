@@ -27,7 +27,6 @@ std::optional<AtlasJob> JobQueue::push(AtlasJob job) {
   AtlasJob& kept = older->job;
   job.poses = kept.poses = newerOf(kept.poses, job.poses);
   job.asked_ns = kept.asked_ns = std::min(kept.asked_ns, job.asked_ns);
-  job.has_asked = kept.has_asked = kept.has_asked || job.has_asked;
   if (kept.structure == job.structure) {
     if (!kept.ticket) kept.ticket = std::move(job.ticket);
     kept.is_for_eyes &= job.is_for_eyes;

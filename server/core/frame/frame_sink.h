@@ -52,11 +52,14 @@ class FrameSink {
   virtual ~FrameSink() = default;
   // Takes the newest frame of a stream. An older one that still waits is reported as kReplaced.
   virtual void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) = 0;
-  // A frame of the stream waits: another one would replace it.
-  virtual bool isFull(const std::string&) const { return false; }
-  // `then` is called on any thread when a frame was taken that had waited. Set once, before frames
+  // A frame of the stream waits to be decoded. True: it is to be decoded now, then it is offered or
+  // lost. False: it waits on, and the sink knows of it.
+  virtual bool wantsFrame(const std::string&) { return true; }
+  // `then` is called on any thread when waiting frames may be wanted now. Set once, before frames
   // come.
-  virtual void onRoom(std::function<void()>) {}
+  virtual void onWanted(std::function<void()>) {}
+  // A wanted frame of the stream does not decode, and is not offered.
+  virtual void noteLost(const std::string&) {}
   // Drops the structure of a stream whose name is free and that nobody watches.
   virtual void forgetStream(const std::string& stream) = 0;
 };

@@ -8,7 +8,7 @@ namespace {
 
 constexpr int64_t kMs_ns = 1'000'000;
 constexpr StreamDemand kWatched{.is_watched = true};
-constexpr StreamDemand kAllWait{.is_watched = true, .all_wait = true};
+constexpr StreamDemand kTakesAll{.is_watched = true, .takes_all = true};
 constexpr StreamDemand kUnwatched{};
 
 // Frames that are built of 60 a second, which replace each other.
@@ -22,27 +22,24 @@ int builtOf(BuildGate& gate, const StreamDemand& demand, int64_t begin_ns, int64
   return count;
 }
 
-TEST(BuildGate, letsAllFramesOfAWatchedStreamThrough) {
+TEST(BuildGate, letsAllFramesThroughThatAreShownAsTheyCome) {
   BuildGate gate;
-  EXPECT_EQ(builtOf(gate, kWatched, 0, 1000 * kMs_ns), 61);
+  EXPECT_EQ(builtOf(gate, kTakesAll, 0, 1000 * kMs_ns), 61);
 }
 
 TEST(BuildGate, letsAFrameASecondThroughThatNobodyWatches) {
   BuildGate gate;
   EXPECT_EQ(builtOf(gate, kUnwatched, 0, 10'000 * kMs_ns), kUnwatchedBurst + 9);
-  EXPECT_EQ(builtOf(gate, kWatched, 10'000 * kMs_ns, 10'500 * kMs_ns), 31) << "somebody came";
+  EXPECT_EQ(builtOf(gate, kTakesAll, 10'000 * kMs_ns, 10'500 * kMs_ns), 31) << "somebody came";
   EXPECT_EQ(builtOf(gate, kUnwatched, 100'000 * kMs_ns, 100'500 * kMs_ns), kUnwatchedBurst);
 }
 
-TEST(BuildGate, holdsAFrameBackWhileTheOneBeforeWaits) {
+TEST(BuildGate, leavesFramesToThePicturesThatAskForThem) {
   BuildGate gate;
-  EXPECT_FALSE(gate.waitUntilNs(kAllWait, 0)) << "there is none before";
-  gate.noteBuilt(kAllWait, 100 * kMs_ns);
-  EXPECT_EQ(gate.waitUntilNs(kAllWait, 200 * kMs_ns), 100 * kMs_ns + kHeldFrame_ns);
-  EXPECT_FALSE(gate.waitUntilNs(kWatched, 200 * kMs_ns)) << "one has begun";
-  const StreamDemand asked{.is_watched = true, .all_wait = true, .is_asked = true};
-  EXPECT_FALSE(gate.waitUntilNs(asked, 200 * kMs_ns)) << "one is about to begin";
-  EXPECT_FALSE(gate.waitUntilNs(kAllWait, 100 * kMs_ns + kHeldFrame_ns));
+  EXPECT_FALSE(gate.waitUntilNs(kWatched, 0)) << "there is none before";
+  gate.noteBuilt(kWatched, 100 * kMs_ns);
+  EXPECT_EQ(gate.waitUntilNs(kWatched, 200 * kMs_ns), 100 * kMs_ns + kHeldFrame_ns);
+  EXPECT_FALSE(gate.waitUntilNs(kWatched, 100 * kMs_ns + kHeldFrame_ns));
 }
 
 }  // namespace

@@ -14,7 +14,6 @@ namespace {
 
 constexpr int64_t kMs_ns = 1'000'000;
 constexpr StreamDemand kWatched{.is_watched = true};
-constexpr StreamDemand kAllWait{.is_watched = true, .all_wait = true};
 
 struct Stream {
   explicit Stream(const std::string& host)
@@ -24,6 +23,7 @@ struct Stream {
   StreamTurn turn;
   StreamDemand demand = kWatched;
   bool has_frame = true;
+  bool has_waiting = false;
 };
 
 class BuildQueueTest : public testing::Test {
@@ -33,6 +33,7 @@ class BuildQueueTest : public testing::Test {
     for (Stream* stream : streams_) {
       builds.push_back({.turn = &stream->turn,
                         .has_frame = [stream] { return stream->has_frame; },
+                        .has_waiting = [stream] { return stream->has_waiting; },
                         .demand = [stream] { return stream->demand; },
                         .claim = [stream] { return stream->claim; }});
     }
@@ -129,19 +130,28 @@ TEST_F(BuildQueueTest, takesAStreamWhoseEngineWasReadyBeforeItWasGivenBack) {
   EXPECT_EQ(taken(), "0");
 }
 
-TEST_F(BuildQueueTest, saysWhenToLookAgainForFramesThatAreHeldBack) {
+TEST_F(BuildQueueTest, letsFramesInThatNoPictureAsksForAfterAWhile) {
   streams_ = {&first_};
-  first_.demand = kAllWait;
-  EXPECT_EQ(taken(), "0") << "there is none before";
-  first_.turn.noteBuilt(kAllWait, clock_.nowNs());
+  first_.has_frame = false;
+  first_.has_waiting = true;
+  EXPECT_EQ(take().let_in, std::vector<size_t>{0}) << "there is none before";
+  first_.turn.noteBuilt(kWatched, clock_.nowNs());
   const int64_t due_ns = clock_.nowNs() + kHeldFrame_ns;
-  giveBack(first_);
   clock_.advance(400 * kMs_ns);
   const BuildQueue::Next held = take();
+  EXPECT_TRUE(held.let_in.empty());
   EXPECT_FALSE(held.stream);
   EXPECT_EQ(held.until_ns, due_ns);
   clock_.advance(due_ns - clock_.nowNs());
+  const BuildQueue::Next due = take();
+  EXPECT_EQ(due.let_in, std::vector<size_t>{0});
+  EXPECT_FALSE(due.stream) << "it is to be decoded first";
+}
+
+TEST_F(BuildQueueTest, letsNoFrameInWhileTheOneBeforeIsBuilt) {
   EXPECT_EQ(taken(), "0");
+  first_.has_waiting = true;
+  EXPECT_TRUE(take().let_in.empty());
 }
 
 TEST_F(BuildQueueTest, makesOneFormOfAStructureAtATime) {

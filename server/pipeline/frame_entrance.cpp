@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/frame_entrance.h"
+
+#include <utility>
+
+namespace viewloom {
+
+bool FrameEntrance::wantsFrame(const std::string& name) {
+  if (is_stopped_) return true;  // to be refused
+  const PipelineStreamPtr stream = streams_.open(name);
+  FrameDoor::Answer answer = stream->door.knock();
+  if (answer == FrameDoor::Answer::kFirst) {
+    if (events_.takes_unasked(*stream)) {
+      stream->door.open();
+      answer = stream->door.knock();
+    } else {
+      queuePictures(*stream);
+      events_.ring_builds();  // in the end it is built unasked
+    }
+  }
+  return answer == FrameDoor::Answer::kComeIn;
+}
+
+void FrameEntrance::noteLost(const std::string& name) {
+  const PipelineStreamPtr stream = streams_.find(name);
+  if (!stream) return;
+  stream->door.close();
+  goOn(*stream);
+}
+
+void FrameEntrance::noteOffered(const PipelineStreamPtr& stream) {
+  if (stream->door.enter()) queuePictures(*stream);
+  events_.ring_builds();
+}
+
+bool FrameEntrance::askNewer(const std::string& name, const std::string& picture_key) {
+  const PipelineStreamPtr stream = streams_.find(name);
+  if (!stream || is_stopped_) return false;
+  asked_.add(name, picture_key);  // before the door is looked at: goOn() finds all who have asked
+  if (letIn(*stream)) return true;
+  asked_.remove(name, picture_key);
+  return false;
+}
+
+bool FrameEntrance::letIn(PipelineStream& stream) {
+  const FrameDoor::Opened opened = stream.door.open();
+  if (opened == FrameDoor::Opened::kNow) {
+    on_wanted_();
+    if (!stream.inbox.empty()) events_.ring_builds();  // it is decoded already
+  }
+  return opened != FrameDoor::Opened::kNobody;
+}
+
+void FrameEntrance::noteBegun(const AtlasJob& job) {
+  const PipelineStreamPtr stream = streams_.find(job.structure->stream);
+  if (!stream || !stream->door.hasWaiting()) return;
+  queuePictures(*stream);
+  if (job.is_tracked) events_.ring_builds();  // see StreamDemand::takes_all
+}
+
+void FrameEntrance::goOn(PipelineStream& stream) {
+  if (!stream.inbox.empty() && stream.door.enter()) queuePictures(stream);  // it came meanwhile
+  on_wanted_();
+  beginAsked(stream.name);
+}
+
+void FrameEntrance::forget(const std::string& stream) {
+  streams_.forget(stream);
+  on_wanted_();
+  beginAsked(stream);
+}
+
+// Where nothing is resident, the first frame needs no picture to ask for it.
+void FrameEntrance::queuePictures(const PipelineStream& stream) {
+  const ResidentPtr resident = stream.resident();
+  if (!resident) return;
+  for (AtlasJob& job :
+       jobsForWaiting(resident, broadcaster_.displays(stream.name), clock_.nowNs())) {
+    events_.offer(std::move(job));
+  }
+}
+
+void FrameEntrance::beginAsked(const std::string& stream) {
+  const std::vector<std::string> picture_keys = asked_.takeAll(stream);
+  if (picture_keys.empty()) return;
+  for (const std::string& picture_key : picture_keys) events_.finish(picture_key);
+  events_.on_finished();
+}
+
+}  // namespace viewloom
