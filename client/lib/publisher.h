@@ -32,8 +32,8 @@ struct PublisherOptions {
   std::string session_id;       // lets only this publisher come back; empty = random
   int zstd_level = 0;           // 0 = planes are not compressed
   bool predicts_depth = false;  // as in CompressionOptions
-  // Most frames that are sent and not yet reported. The server decodes one, builds one and renders
-  // one at a time. It would replace further ones after they were sent.
+  // Most frames that are sent and not yet reported. The server receives one, builds one and renders
+  // one at a time. Further ones would only grow old on their way.
   size_t in_flight_max = 4;
   BackoffOptions backoff;
 };

@@ -30,7 +30,7 @@ class FrameEntrance {
     std::function<bool(const PipelineStream& stream)> takes_unasked;
   };
 
-  // What it is given outlives it.
+  // The parts outlive it.
   FrameEntrance(StreamTable& streams, const Broadcaster& broadcaster, const Clock& clock,
                 Events events)
       : streams_(streams), broadcaster_(broadcaster), clock_(clock), events_(std::move(events)) {}

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace viewloom {
 namespace {
@@ -16,10 +15,12 @@ constexpr double kReplacedShareMax = 0.1;
 // Beyond what is used, so that more can be used when there is time.
 constexpr double kHeadroom = 1.1;
 constexpr double kRiseMax = 4;
-// A publisher is held back whose frames wait for so much of the time, in so many turns at least.
-// One that is not, waits for what is being made of its last frame, if at all.
+// A publisher is held back whose frames wait for so much of the time, in so many turns at least. It
+// may send more while they wait for less than the other share: their number grows slowly.
 constexpr double kWaitedShareMax = 0.75;
+constexpr double kWaitedShareCalm = 0.25;
 constexpr size_t kTurnsMin = 3;
+constexpr int64_t kTurnsWindow_ns = 3'000'000'000;  // they may come once a second
 // Then the frames that wait, also those on their way, become fewer.
 constexpr double kRelief = 0.9;
 // A moment without a single used frame does not yet tell what is used.
@@ -50,10 +51,10 @@ bool UsedRate::noteTurn(int64_t waited_ns, int64_t now_ns) {
 
 bool UsedRate::judge(int64_t now_ns) {
   keepSince(now_ns - kWindow_ns, outcomes_);
-  keepSince(now_ns - kWindow_ns, turns_);
+  keepSince(now_ns - kTurnsWindow_ns, turns_);
   if (now_ns - changed_ns_ < kWindow_ns) return false;
   if (const double held_back_hz = heldBackHz(); held_back_hz > 0) {
-    return lower(held_back_hz * kRelief, now_ns);
+    return lower(std::max(held_back_hz, 1.0) * kRelief, now_ns);
   }
   if (outcomes_.empty() || (outcomes_.size() < kFramesMin && limit_hz_ == 0)) return false;
   const int64_t span_ns = now_ns - outcomes_.front().time_ns;
@@ -62,23 +63,27 @@ bool UsedRate::judge(int64_t now_ns) {
   const auto count = double(outcomes_.size());
   const double per_second = 1e9 / double(span_ns);
   if (used_count < (1 - kReplacedShareMax) * count) {
-    return lower(std::max(used_count * kHeadroom, count * kFallMost) * per_second, now_ns);
+    const double rate_hz = std::max(used_count * kHeadroom, count * kFallMost) * per_second;
+    return lower(std::max(rate_hz, kHeadroom), now_ns);
   }
-  if (limit_hz_ > 0 && used_count == count) return raise(count * per_second, now_ns);
+  const bool is_calm = turns_.empty() || waitedShare() < kWaitedShareCalm;
+  if (limit_hz_ > 0 && used_count == count && is_calm) return raise(count * per_second, now_ns);
   return false;
+}
+
+// Share of the time in which a frame waited for its turn. As good as all while that is not known.
+double UsedRate::waitedShare() const {
+  int64_t waited_ns = 0;
+  for (size_t i = 1; i < turns_.size(); ++i) waited_ns += turns_[i].waited_ns;
+  const int64_t span_ns = turns_.back().time_ns - turns_.front().time_ns;
+  return span_ns > 0 ? double(waited_ns) / double(span_ns) : 1;
 }
 
 // Turns a second of a publisher that is held back; 0 = it is not.
 double UsedRate::heldBackHz() const {
-  if (turns_.size() < kTurnsMin) return 0;
+  if (turns_.size() < kTurnsMin || waitedShare() < kWaitedShareMax) return 0;
   const int64_t span_ns = turns_.back().time_ns - turns_.front().time_ns;
-  if (span_ns < kWindow_ns / 2) return 0;
-  int64_t waited_ns = 0;
-  for (auto turn = std::next(turns_.begin()); turn != turns_.end(); ++turn) {
-    waited_ns += turn->waited_ns;
-  }
-  if (double(waited_ns) < kWaitedShareMax * double(span_ns)) return 0;
-  return double(turns_.size() - 1) * 1e9 / double(span_ns);
+  return span_ns < kWindow_ns / 2 ? 0 : double(turns_.size() - 1) * 1e9 / double(span_ns);
 }
 
 // Frames at the old limit say nothing about the new one.
@@ -92,7 +97,7 @@ void UsedRate::change(double limit_hz, int64_t now_ns) {
 bool UsedRate::lower(double rate_hz, int64_t now_ns) {
   rise_ = kRise;
   const double before_hz = limit_hz_;
-  change(rounded(std::max(rate_hz, kHeadroom)), now_ns);
+  change(rounded(rate_hz), now_ns);
   return limit_hz_ != before_hz;
 }
 

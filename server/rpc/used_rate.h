@@ -42,12 +42,13 @@ class UsedRate {
   };
 
   bool judge(int64_t now_ns);
+  double waitedShare() const;  // of turns_, of which there are some
   double heldBackHz() const;
   bool lower(double rate_hz, int64_t now_ns);
   bool raise(double received_hz, int64_t now_ns);
   void change(double limit_hz, int64_t now_ns);
 
-  // Of the last while, since the limit was changed.
+  // In the last while, since the limit was changed.
   std::deque<Outcome> outcomes_;
   std::deque<Turn> turns_;
   double limit_hz_ = 0;

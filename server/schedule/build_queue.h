@@ -55,7 +55,7 @@ class StreamTurn {
   // Nobody may take it from now on until noteReady().
   void awaitReady() { is_awaited_ = true; }
   void noteReady() { is_awaited_ = false; }
-  // As BuildGate. By whoever works on the stream.
+  // See BuildGate. By whoever works on the stream.
   void noteBuilt(const StreamDemand& demand, int64_t now_ns) { gate_.noteBuilt(demand, now_ns); }
 
  private:

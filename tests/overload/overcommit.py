@@ -159,8 +159,7 @@ def run(program, its_form):
     refusal = judged_refusal(
         RefusalRow(statistics.median(refused_s), refused_s[int(0.9 * len(refused_s))],
                    statistics.median(rest_s), len(refused_s)), its_form.limits)
-    print(f"\n{RefusalRow.HEADER}\n{refusal.text()}\nframes replaced: "
-          f"{snapshot.value('viewloom_replaced_total', hand_over='decode'):.0f} before decoding, "
-          f"{snapshot.value('viewloom_replaced_total', hand_over='structure'):.0f} before building",
-          flush=True)
+    pictures = snapshot.value("viewloom_atlases_traced_total")
+    print(f"\n{RefusalRow.HEADER}\n{refusal.text()}\nframes prepared for each picture: "
+          f"{snapshot.value('viewloom_structures_built_total') / max(1, pictures):.2f}", flush=True)
     return [*rows, refusal]

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <utility>
 
@@ -72,6 +73,81 @@ TEST(UsedRate, goesWhenThereIsTimeAgain) {
   EXPECT_GT(simulation.rate().limitHz(), 0);
   simulation.run(30, 1000, 60);
   EXPECT_EQ(simulation.rate().limitHz(), 0);
+}
+
+// A publisher that obeys, before a server that makes it wait until its frames have their turns. Of
+// its frames, some may be on their way.
+class HeldBack {
+ public:
+  void run(double publisher_hz, double used_hz, int seconds) {
+    const int64_t end_ns = now_ns_ + seconds * kSecond_ns;
+    while (now_ns_ < end_ns) {
+      const double limit_hz = rate_.limitHz();
+      const double sent_hz = limit_hz > 0 && limit_hz < publisher_hz ? limit_hz : publisher_hz;
+      const int64_t made_ns = std::max(made_ns_ + int64_t(1e9 / sent_hz), now_ns_ - kOldest_ns);
+      const int64_t received_ns = std::max(made_ns, now_ns_);  // after the one before is taken
+      const int64_t taken_ns = std::max(received_ns, now_ns_ + int64_t(1e9 / used_hz));
+      made_ns_ = made_ns;
+      now_ns_ = taken_ns;
+      oldest_ns_ = std::max(oldest_ns_, taken_ns - made_ns);
+      ++taken_count_;
+      if (knows_turns) rate_.noteTurn(taken_ns - received_ns, now_ns_);
+      rate_.note(true, now_ns_);
+    }
+  }
+  int takenCount() { return std::exchange(taken_count_, 0); }
+  int64_t oldestNs() { return std::exchange(oldest_ns_, 0); }
+  UsedRate& rate() { return rate_; }
+
+  bool knows_turns = true;
+
+ private:
+  // Frames on their way are no older; beyond that the publisher itself replaces frames.
+  static constexpr int64_t kOldest_ns = 2 * kSecond_ns;
+
+  UsedRate rate_;
+  int64_t now_ns_ = 10 * kSecond_ns;
+  int64_t made_ns_ = 10 * kSecond_ns;
+  int64_t oldest_ns_ = 0;
+  int taken_count_ = 0;
+};
+
+TEST(UsedRate, knowsNothingOfPublishersThatAreHeldBackButByTurns) {
+  HeldBack publisher;
+  publisher.knows_turns = false;
+  publisher.run(10, 4, 60);
+  EXPECT_EQ(publisher.rate().limitHz(), 0);
+  EXPECT_GE(publisher.oldestNs(), 2 * kSecond_ns);
+}
+
+TEST(UsedRate, keepsFramesFreshThatWouldWaitForTheirTurns) {
+  HeldBack publisher;
+  publisher.run(10, 4, 20);
+  publisher.oldestNs();
+  publisher.takenCount();
+  publisher.run(10, 4, 60);
+  EXPECT_LT(publisher.oldestNs(), 3 * kSecond_ns / 4);
+  EXPECT_GE(publisher.takenCount(), 0.85 * 4 * 60) << "and the server is used";
+}
+
+TEST(UsedRate, isAboutOneWhereAFrameASecondIsTaken) {
+  HeldBack publisher;
+  publisher.run(30, 1, 10);
+  EXPECT_NEAR(publisher.rate().limitHz(), 1, 0.3);
+}
+
+TEST(UsedRate, leavesPublishersAloneWhoseFramesWaitForAWhile) {
+  HeldBack publisher;
+  publisher.run(10, 11, 30);
+  EXPECT_EQ(publisher.rate().limitHz(), 0);
+}
+
+TEST(UsedRate, goesWhenTurnsComeSooner) {
+  HeldBack publisher;
+  publisher.run(10, 2, 20);
+  EXPECT_GT(publisher.rate().limitHz(), 0);
+  publisher.run(10, 1000, 30);
+  EXPECT_EQ(publisher.rate().limitHz(), 0);
 }
 
 TEST(UsedRate, isForgotten) {
