@@ -3,6 +3,9 @@
 
 #include <utility>
 
+#include "base/log.h"
+#include "pipeline/within_memory.h"
+
 namespace viewloom {
 
 bool FrameEntrance::wantsFrame(const std::string& name) {
@@ -70,14 +73,18 @@ void FrameEntrance::forget(const std::string& stream) {
   beginAsked(stream);
 }
 
-// Where nothing is resident, the first frame needs no picture to ask for it.
+// Where nothing is resident, the first frame needs no picture to ask for it. Without memory for the
+// jobs, the frame is built unasked.
 void FrameEntrance::queuePictures(const PipelineStream& stream) {
   const ResidentPtr resident = stream.resident();
   if (!resident) return;
-  for (AtlasJob& job :
-       jobsForWaiting(resident, broadcaster_.displays(stream.name), clock_.nowNs())) {
-    events_.offer(std::move(job));
-  }
+  const absl::Status status = withinMemory([&] {
+    for (AtlasJob& job :
+         jobsForWaiting(resident, broadcaster_.displays(stream.name), clock_.nowNs())) {
+      events_.offer(std::move(job));
+    }
+  });
+  if (!status.ok()) log(LogLevel::kWarning, "stream ", stream.name, ": ", status.message());
 }
 
 void FrameEntrance::beginAsked(const std::string& stream) {
