@@ -13,8 +13,9 @@ inline constexpr int64_t kUnwatched_ns = 1'000'000'000;
 // But the first frames after a while are all built.
 inline constexpr int64_t kUnwatchedBurst = 16;
 // A picture asks for the newest frame when it is its turn. If none does, that frame is built after
-// this time, for what is told of the stream.
-inline constexpr int64_t kHeldFrame_ns = 1'000'000'000;
+// this time, for what is told of the stream. Turns come sooner, unless the server has far more to
+// do than it can: then it must not build for nobody as well.
+inline constexpr int64_t kHeldFrame_ns = 10'000'000'000;
 
 // Displays that wait for the frames of a stream.
 struct StreamDemand {
