@@ -66,7 +66,6 @@ class SignIn {
 
 void describe(const Certificate& certificate) {
   certificate.subject();
-  certificate.isAuthority();
   certificate.isSelfSigned();
   certificate.isFor("localhost");
   certificate.isFor("127.0.0.1");

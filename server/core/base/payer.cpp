@@ -5,10 +5,6 @@
 
 namespace viewloom {
 
-Payer Payer::ofHost(std::string_view host) {
-  return Payer(identityOfHost(host));
-}
-
 bool Payer::isLocal() const {
   return name_ == kThisMachine;
 }

@@ -4,7 +4,6 @@
 
 #include <compare>
 #include <string>
-#include <string_view>
 #include <utility>
 
 namespace viewloom {
@@ -16,8 +15,6 @@ class Payer {
   Payer() = default;
   // A client: the id of a proven identity, or the name that identityOfHost gives.
   explicit Payer(std::string name) : name_(std::move(name)) {}
-  // The client at a peer address without its port: "10.0.0.7", "::1".
-  static Payer ofHost(std::string_view host);
 
   bool isServer() const { return name_.empty(); }
   // A client on this machine that has proven no identity.

@@ -73,10 +73,6 @@ bool Certificate::isFor(CertificatePurpose purpose) const {
   return X509_check_purpose(certificate_.get(), id, 0) == 1;
 }
 
-bool Certificate::isAuthority() const {
-  return X509_check_ca(certificate_.get()) != 0;
-}
-
 bool Certificate::isSelfSigned() const {
   return X509_self_signed(certificate_.get(), 0) == 1;
 }

@@ -28,8 +28,6 @@ class Certificate {
   // Whether it is made for a host: a name, also by a wildcard, or an address without brackets.
   bool isFor(const std::string& host) const;
   bool isFor(CertificatePurpose purpose) const;
-  // Whether it may sign other certificates.
-  bool isAuthority() const;
   bool isSelfSigned() const;
   // Seconds since 1970, UTC.
   int64_t beginS() const;

@@ -27,9 +27,7 @@ TEST(Certificate, tellsWhatItIsFor) {
   EXPECT_EQ(certificate.endS(), kTestDay_s + 86400);
   EXPECT_TRUE(certificate.isFor(CertificatePurpose::kServer));
   EXPECT_FALSE(certificate.isFor(CertificatePurpose::kClient));
-  EXPECT_FALSE(certificate.isAuthority());
   EXPECT_TRUE(certificate.isSelfSigned());
-  EXPECT_TRUE(made({.is_authority = true}).isAuthority());
 }
 
 TEST(Certificate, isForItsNamesAndAddressesAlone) {

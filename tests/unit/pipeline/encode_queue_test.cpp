@@ -123,7 +123,7 @@ TEST_F(EncodeQueueTest, anAtlasThatTakesLongLetsOthersGoFirst) {
 
 TEST_F(EncodeQueueTest, eachPayerHasItsShare) {
   const auto payedBy = [](AtlasRunPtr run, const char* address) {
-    run->claim.payers = {Payer::ofHost(address)};
+    run->claim.payers = {Payer(address)};
     return run;
   };
   push(payedBy(runOf("huge", 100), "10.0.0.1"), 1, 9);

@@ -21,7 +21,7 @@ using RunPtr = std::shared_ptr<FakeRun>;
 RunPtr runOf(const std::string& host, int64_t deadline_ns, bool is_tracked = false) {
   return std::make_shared<FakeRun>(FakeRun{
       host,
-      {.deadline_ns = deadline_ns, .is_tracked = is_tracked, .payers = {Payer::ofHost(host)}}});
+      {.deadline_ns = deadline_ns, .is_tracked = is_tracked, .payers = {Payer(host)}}});
 }
 
 class BegunWorkTest : public testing::Test {
@@ -72,10 +72,10 @@ TEST_F(BegunWorkTest, letsAPartBeTheLast) {
 TEST_F(BegunWorkTest, knowsWhoseTrackedDisplaysHaveBegun) {
   begun_.add(runOf("still", 0));
   begun_.add(runOf("tracked", 0, true));
-  EXPECT_TRUE(begun_.hasTracked({Payer::ofHost("tracked")}));
-  EXPECT_FALSE(begun_.hasTracked({Payer::ofHost("still")}));
+  EXPECT_TRUE(begun_.hasTracked({Payer("tracked")}));
+  EXPECT_FALSE(begun_.hasTracked({Payer("still")}));
   begun_.clear();
-  EXPECT_FALSE(begun_.hasTracked({Payer::ofHost("tracked")}));
+  EXPECT_FALSE(begun_.hasTracked({Payer("tracked")}));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ constexpr StreamDemand kWatched{.is_watched = true};
 
 struct Stream {
   explicit Stream(const std::string& host)
-      : claim{.payers = {Payer::ofHost(host)}, .stream = host} {}
+      : claim{.payers = {Payer(host)}, .stream = host} {}
 
   Claim claim;
   StreamTurn turn;
@@ -51,7 +51,7 @@ class BuildQueueTest : public testing::Test {
   }
   static FormOrder formOf(ResidentPtr structure, uint64_t px_count = 1) {
     return {.structure = std::move(structure),
-            .claim = {.payers = {Payer::ofHost("viewer")}, .display = "quilt"},
+            .claim = {.payers = {Payer("viewer")}, .display = "quilt"},
             .px_count = px_count,
             .then = [](const absl::Status&) {}};
   }

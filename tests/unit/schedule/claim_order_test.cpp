@@ -18,7 +18,7 @@ class OrderOfClaims : public testing::Test {
                      bool is_tracked = false) {
     return {.deadline_ns = deadline_ns,
             .is_tracked = is_tracked,
-            .payers = {Payer::ofHost(identity)},
+            .payers = {Payer(identity)},
             .stream = "s",
             .display = display};
   }

@@ -39,7 +39,7 @@ struct Client {
 Client client(const std::string& identity, const std::string& display, int64_t picture_ns,
               int64_t interval_ns = 0) {
   Client client;
-  client.claim = {.payers = {Payer::ofHost(identity)}, .stream = "s", .display = display};
+  client.claim = {.payers = {Payer(identity)}, .stream = "s", .display = display};
   client.interval_ns = interval_ns;
   client.picture_ns = picture_ns;
   return client;
@@ -233,7 +233,7 @@ TEST(FairShares, aSharedPictureCostsEachOfItsViewersLess) {
   Server server;
   std::vector<Client> clients = {client(address(1), "shared", 40 * kMs_ns),
                                  client(address(3), "own", 40 * kMs_ns)};
-  clients[0].claim.payers.push_back(Payer::ofHost(address(2)));
+  clients[0].claim.payers.push_back(Payer(address(2)));
   server.run(clients, 30 * kSecond_ns);
   EXPECT_NEAR(double(clients[0].had_ns), 20 * 1e9, 1e9);
   EXPECT_NEAR(double(clients[1].had_ns), 10 * 1e9, 1e9);
@@ -264,8 +264,8 @@ TEST(FairShares, remembersFewOfThoseThatHaveGone) {
   };
   for (int i = 0; i < kCount; ++i) {
     const std::string name = "once" + std::to_string(i);
-    serve({.payers = {Payer::ofHost(address(1))}, .stream = name, .display = "quilt"});
-    serve({.payers = {Payer::ofHost(address(1))}, .stream = "s", .display = name});
+    serve({.payers = {Payer(address(1))}, .stream = name, .display = "quilt"});
+    serve({.payers = {Payer(address(1))}, .stream = "s", .display = name});
     serve({.payers = {Payer(name)}, .stream = "s", .display = "quilt"});
   }
   EXPECT_LT(lentHeapBytes(), before_bytes + kMost_bytes);

@@ -113,11 +113,11 @@ TEST_F(JobBoardTest, waitsForPosesThatAreAboutToCome) {
 
 TEST_F(JobBoardTest, letsOthersBeginWhileSomebodysEyesWaitForPoses) {
   AtlasJob job = eyes();
-  job.payers = {Payer::ofHost("10.0.0.1")};
+  job.payers = {Payer("10.0.0.1")};
   board_.offer(job);
   clock_.advance(7 * kMs_ns);
   AtlasJob other = quilt("quilt", 1000);
-  other.payers = {Payer::ofHost("10.0.0.2")};
+  other.payers = {Payer("10.0.0.2")};
   board_.offer(other);
   EXPECT_EQ(begin(kFirst), "quilt");
   EXPECT_EQ(begin(kFirst), "");
@@ -126,11 +126,11 @@ TEST_F(JobBoardTest, letsOthersBeginWhileSomebodysEyesWaitForPoses) {
 
 TEST_F(JobBoardTest, letsEyesOfOnePayerNotPassAnother) {
   AtlasJob job = eyes();
-  job.payers = {Payer::ofHost("10.0.0.1")};
+  job.payers = {Payer("10.0.0.1")};
   board_.offer(job);
   shares_.begin(claimOf(job), kInOrder_ns);
   AtlasJob other = quilt("quilt", 1000);
-  other.payers = {Payer::ofHost("10.0.0.2")};
+  other.payers = {Payer("10.0.0.2")};
   board_.offer(other);
   EXPECT_EQ(begin(kFirst, nullptr, false), "quilt");
 }

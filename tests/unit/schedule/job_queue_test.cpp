@@ -43,9 +43,9 @@ TEST(JobQueue, givesTheJobOfWhomHadLessFirst) {
   FairShares shares;
   JobQueue queue;
   AtlasJob greedy{"greedy", someStructure(), 10, nullptr};
-  greedy.payers = {Payer::ofHost("10.0.0.1")};
+  greedy.payers = {Payer("10.0.0.1")};
   AtlasJob modest{"modest", someStructure(), 20, nullptr};
-  modest.payers = {Payer::ofHost("10.0.0.2")};
+  modest.payers = {Payer("10.0.0.2")};
   shares.begin(claimOf(greedy), kPiece_ns);
   queue.push(greedy);
   queue.push(modest);
@@ -59,11 +59,11 @@ TEST(JobQueue, letsWhoeverJoinsAPicturePayForIt) {
   JobQueue queue;
   const ResidentPtr structure = someStructure();
   AtlasJob of_greedy{"shared", structure, 20, nullptr};
-  of_greedy.payers = {Payer::ofHost("10.0.0.1")};
+  of_greedy.payers = {Payer("10.0.0.1")};
   AtlasJob of_both = of_greedy;
-  of_both.payers.push_back(Payer::ofHost("10.0.0.2"));
+  of_both.payers.push_back(Payer("10.0.0.2"));
   AtlasJob of_third{"other", someStructure(), 10, nullptr};
-  of_third.payers = {Payer::ofHost("10.0.0.3")};
+  of_third.payers = {Payer("10.0.0.3")};
   shares.begin(claimOf(of_third), kPiece_ns);
   shares.begin(claimOf(of_greedy), 2 * kPiece_ns);
   queue.push(of_greedy);
