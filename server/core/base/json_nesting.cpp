@@ -3,7 +3,7 @@
 
 namespace viewloom {
 
-bool isNestedDeeply(std::string_view json) {
+bool isNestedDeeply(std::string_view json, size_t depth_max) {
   size_t depth = 0;
   bool is_in_text = false;
   for (size_t i = 0; i < json.size(); ++i) {
@@ -12,7 +12,7 @@ bool isNestedDeeply(std::string_view json) {
     if (is_in_text) {
       i += c == '\\';  // the next character is no end
     } else if (c == '[' || c == '{') {
-      if (++depth > kJsonDepthMax) return true;
+      if (++depth > depth_max) return true;
     } else if ((c == ']' || c == '}') && depth > 0) {
       --depth;
     }

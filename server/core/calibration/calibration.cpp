@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/json_nesting.h"
 #include "base/str_cat.h"
 #include "calibration/calibration_keys.h"
 #include "calibration/make_lenticular.h"
@@ -22,15 +23,10 @@ constexpr double kSlopeMax = 1e6;
 
 // Deepest nesting that is read; real files have three levels. What walks a value in depth would
 // overflow the stack of a thread with the nesting that fits into a file.
-constexpr int kDepthMax = 16;
+constexpr size_t kDepthMax = 16;
 
 absl::StatusOr<json> parseShallow(std::string_view text) {
-  bool is_too_deep = false;
-  json value = json::parse(text, [&](int depth, json::parse_event_t, const json&) {
-    is_too_deep |= depth > kDepthMax;
-    return !is_too_deep;
-  });
-  if (!is_too_deep) return value;
+  if (!isNestedDeeply(text, kDepthMax)) return json::parse(text);
   return refuseKey("calibration", strCat("nests lists or objects deeper than ", kDepthMax,
                                          "; accepted are up to ", kDepthMax, " levels"));
 }

@@ -16,6 +16,11 @@ TEST(JsonNesting, countsListsAndObjects) {
   EXPECT_FALSE(isNestedDeeply(""));
 }
 
+TEST(JsonNesting, takesAnotherLimit) {
+  EXPECT_FALSE(isNestedDeeply("[{}]", 2));
+  EXPECT_TRUE(isNestedDeeply("[{}]", 1));
+}
+
 TEST(JsonNesting, countsWhatIsOpenAtATime) {
   std::string beside;
   for (size_t i = 0; i < 1000; ++i) beside += "[{}],";

@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <limits>
+
+#include "base/thread_time.h"
 #include "unit/calibration/device_files.h"
 
 namespace viewloom::calibration_test {
@@ -163,7 +167,7 @@ TEST(Calibration, refusesWhatIsNoObjectInJson) {
       {edited(kPortraitFile, "324", "Infinity"), "calibration", "is no JSON"},
       {edited(kPortraitFile, "324", "1e999"), "calibration", "is no JSON"},
       {edited(kPortraitFile, "PORT", "\xff"), "calibration", "is no JSON"},
-      {std::string(60000, '['), "calibration", "is no JSON"},
+      {std::string(60000, '['), "calibration", "nests lists or objects deeper than 16"},
       {std::string(kPortraitFile.substr(0, 200)), "calibration", "is no JSON"},
       {long_file, "calibration", "accepted are up to 65536"},
   };
@@ -180,6 +184,25 @@ TEST(Calibration, refusesDeepNesting) {
   }
   const std::string allowed = std::string(10, '[') + std::string(10, ']');
   expectRefused({edited(kPortraitFile, "324", allowed), "DPI", "is [[[[[[[[[["});
+}
+
+// CPU time to refuse a list of so many empty objects; the least of three attempts.
+int64_t refusalNs(size_t object_count) {
+  std::string list = "[{}";
+  for (size_t i = 1; i < object_count; ++i) list += ",{}";
+  list += ']';
+  int64_t least_ns = std::numeric_limits<int64_t>::max();
+  for (int attempt = 0; attempt < 3; ++attempt) {
+    const int64_t begin_ns = threadTimeNs();
+    EXPECT_FALSE(parseCalibration(list).ok());
+    least_ns = std::min(least_ns, threadTimeNs() - begin_ns);
+  }
+  return least_ns;
+}
+
+// Ten times the text may take ten times as long, not a hundred times.
+TEST(Calibration, refusesLongListsInLinearTime) {
+  EXPECT_LT(refusalNs(20'000), 40 * refusalNs(2'000));
 }
 
 TEST(Calibration, quotesLongValuesInPart) {
