@@ -212,7 +212,7 @@ net::awaitable<void> Connection::sendToTls() {
   if (error) co_return;
   const HttpRequest request = requestOf(parser.get());
   std::optional<HttpReply> reply = refusalOf(request);
-  if (!reply) reply = redirectReply("https://" + request.host + request.target);
+  if (!reply) reply = redirectToTls(request);
   co_await write(*reply, parser, false, error);
 }
 

@@ -168,6 +168,12 @@ std::optional<HttpReply> refusal(const WebContext& context, const HttpRequest& r
   return std::nullopt;
 }
 
+HttpReply redirectToTls(const HttpRequest& request) {
+  const absl::StatusOr<Url> url = parseUrl(request.target);
+  if (!url.ok()) return errorReply(url.status());
+  return redirectReply(strCat("https://", request.host, request.target));
+}
+
 net::awaitable<HttpReply> answer(WebContext& context, HttpRequest request) {
   HttpReply reply = co_await route(context, request);
   for (auto& [name, value] : reply.headers) {

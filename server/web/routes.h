@@ -18,6 +18,10 @@ bool isStatusTarget(std::string_view target);
 // Whether host, page and method are accepted; the refusal otherwise.
 std::optional<HttpReply> refusal(const WebContext& context, const HttpRequest& request);
 
+// Sends a request that came without TLS to the same address with it. The client concatenates
+// addresses, too: a target that is no path would lead to another host, and is refused.
+HttpReply redirectToTls(const HttpRequest& request);
+
 // Answers everything but WebSockets. Runs on the caller's strand.
 net::awaitable<HttpReply> answer(WebContext& context, HttpRequest request);
 

@@ -99,6 +99,9 @@ class Tls(TlsCase):
         connection.close()
         connection.request("GET", "/", headers={"Host": "evil.example"})
         self.assertEqual(connection.getresponse().status, 403)
+        connection.close()
+        connection.request("GET", "@evil.example/")  # "https://localhost:PORT@evil.example/"
+        self.assertEqual(connection.getresponse().status, 400)
 
     # Other files while the server runs.
 
