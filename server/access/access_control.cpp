@@ -181,7 +181,9 @@ absl::StatusOr<Caller> AccessControl::admitLink(std::string_view operation, std:
                                                 std::string_view link, const LinkTarget& target) {
   const absl::StatusOr<LinkClaim> claim = parseLink(link);
   if (!claim.ok()) return grant(operation, std::move(peer), claim.status());
-  return grant(operation, std::move(peer), linkedIdentity(*claim, target));
+  absl::StatusOr<Caller> caller = grant(operation, std::move(peer), linkedIdentity(*claim, target));
+  if (caller.ok() && isOn()) caller->link_expires_s_ = claim->expires_s;
+  return caller;
 }
 
 absl::StatusOr<IdentityPtr> AccessControl::linkedIdentity(const LinkClaim& claim,
@@ -201,7 +203,7 @@ absl::StatusOr<IdentityPtr> AccessControl::linkedIdentity(const LinkClaim& claim
     if (found != linked_.end()) identity = found->second;
   }
   if (identity == nullptr || !signer_.isSigned(claim, *identity, target)) return refusal;
-  if (options_.now_s() >= claim.expires_s) return expired("the link");
+  VIEWLOOM_RETURN_IF_ERROR(checkLinkTime(claim.expires_s));
   VIEWLOOM_RETURN_IF_ERROR(recheck(*identity));
   return identity;
 }
@@ -227,6 +229,10 @@ absl::StatusOr<AccessControl::Link> AccessControl::sign(const Caller& caller,
   }
   link.signature = signer_.sign(*identity, target, link.expires_s);
   return link;
+}
+
+absl::Status AccessControl::checkLinkTime(int64_t expires_s) const {
+  return options_.now_s() < expires_s ? absl::OkStatus() : expired("the link");
 }
 
 absl::Status AccessControl::recheck(const Identity& identity) {

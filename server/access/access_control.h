@@ -54,7 +54,8 @@ class AccessControl {
   // object.
   absl::StatusOr<Caller> admit(std::string_view operation, std::string peer,
                                std::string_view token);
-  // Likewise by a signed link to this target.
+  // Likewise by a signed link to this target. The caller then ends with the link (Caller::recheck).
+  // A server that lets everybody do everything looks at no link.
   absl::StatusOr<Caller> admitLink(std::string_view operation, std::string peer,
                                    std::string_view link, const LinkTarget& target);
 
@@ -82,6 +83,8 @@ class AccessControl {
                                const absl::StatusOr<IdentityPtr>& identity);
   // UNAUTHENTICATED once the identity has expired, was revoked, or has other rights.
   absl::Status recheck(const Identity& identity);
+  // UNAUTHENTICATED once a link that expires then has expired.
+  absl::Status checkLinkTime(int64_t expires_s) const;
   void audit(const AuditEvent& event) { audit_.write(event); }
 
   const AccessOptions options_;

@@ -63,6 +63,7 @@ std::string Caller::shareName(std::string_view host) const {
 
 absl::Status Caller::recheck() const {
   VIEWLOOM_RETURN_IF_ERROR(access_->recheck(*identity_));
+  if (link_expires_s_) VIEWLOOM_RETURN_IF_ERROR(access_->checkLinkTime(*link_expires_s_));
   return told(access_->quotas_.endIfOver(*identity_));
 }
 

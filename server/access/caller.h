@@ -2,6 +2,8 @@
 // A client of one call or request, with a proven identity.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -29,7 +31,8 @@ class Caller {
   // subject of a JWT ("anna (JWT)"). Where nobody has to prove one, it is the client at `host`
   // (identityOfHost).
   std::string shareName(std::string_view host) const;
-  // UNAUTHENTICATED once its identity has expired, was revoked, or has other rights.
+  // UNAUTHENTICATED once its identity has expired, was revoked, or has other rights, and once the
+  // signed link by which it came has expired.
   // RESOURCE_EXHAUSTED once it has gone over a rate of its quota. To be asked now and then while a
   // call lives; the call ends then.
   absl::Status recheck() const;
@@ -59,6 +62,7 @@ class Caller {
   std::string_view operation_;  // of operations()
   std::string peer_;
   IdentityPtr identity_;
+  std::optional<int64_t> link_expires_s_;  // of the link by which it came; empty = by a token
   QuotaPartPtr connection_;
 };
 

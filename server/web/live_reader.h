@@ -2,7 +2,12 @@
 // Whoever is served over one connection for longer than one reply.
 #pragma once
 
+#include <chrono>
+
 namespace viewloom {
+
+// Between two looks at whether the caller may still read, also while there is nothing to send.
+inline constexpr std::chrono::seconds kRecheckInterval{1};
 
 // Thread-safety: on the strand of the connection.
 class LiveReader {

@@ -3,6 +3,7 @@
 
 #include <netinet/tcp.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <utility>
@@ -52,7 +53,7 @@ MultipartStream::MultipartStream(WebContext& context, Caller caller, net::any_io
     : context_(context),
       caller_(std::move(caller)),
       identity_(std::move(identity)),
-      awake_(std::move(strand), net::steady_timer::time_point::max()) {
+      awake_(std::move(strand)) {
   context_.metrics.subscribers[Transport::kWeb].add(1);
 }
 
@@ -121,21 +122,21 @@ net::awaitable<void> MultipartStream::readUntilGone() {
 }
 
 net::awaitable<void> MultipartStream::writeParts(ErrorCode& error) {
-  bool is_repeat_due = false;
-  while (!error && !gone_ && !leaving_ && !inbox_->ended()) {
+  using Time = net::steady_timer::time_point;
+  const auto now = [] { return net::steady_timer::clock_type::now(); };
+  Time repeat_time = Time::max();
+  while (!error && !gone_ && !leaving_ && !inbox_->ended() && caller_.recheck().ok()) {
     auto arrival = inbox_->take();
-    if (arrival || is_repeat_due) {
-      if (!caller_.recheck().ok()) co_return;
+    if (arrival || now() >= repeat_time) {
       if (arrival) shown_ = std::move(arrival->atlas);
       co_await writePart(kNextOpening, error);
       if (arrival && !error) context_.metrics.atlases_sent[Transport::kWeb].add();
-      awake_.expires_after(arrival ? kFirstPause : kPause);
-      is_repeat_due = false;
+      repeat_time = now() + (arrival ? kFirstPause : kPause);
       continue;
     }
+    awake_.expires_at(std::min<Time>(repeat_time, now() + kRecheckInterval));
     ErrorCode woken;
     co_await awake_.async_wait(into(woken));
-    is_repeat_due = !woken;
   }
 }
 

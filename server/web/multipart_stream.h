@@ -56,7 +56,7 @@ class MultipartStream final : public LiveReader,
   WebContext& context_;
   const Caller caller_;
   const std::string identity_;
-  net::steady_timer awake_;  // waiting for it is waiting for wake(), or until a repeat is due
+  net::steady_timer awake_;  // waiting for it is waiting for wake(), at most kRecheckInterval
   std::optional<WebStream> stream_;  // from run() on
   std::shared_ptr<AtlasInbox> inbox_;
   std::unique_ptr<Broadcaster::Subscription> subscription_;

@@ -30,7 +30,7 @@ Viewer::Viewer(WebContext& context, Caller caller, WebStream stream, QueryParame
     : context_(context),
       caller_(std::move(caller)),
       socket_(std::move(stream)),
-      awake_(socket_.get_executor(), net::steady_timer::time_point::max()),
+      awake_(socket_.get_executor()),
       next_read_(socket_.get_executor()),
       write_end_(socket_.get_executor()),
       pace_(context.options.message_rate),
@@ -214,6 +214,7 @@ net::awaitable<void> Viewer::writeMessages() {
       }
     }
     ErrorCode woken;
+    awake_.expires_after(kRecheckInterval);
     co_await awake_.async_wait(into(woken));
   }
 }

@@ -68,7 +68,7 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   WebContext& context_;
   const Caller caller_;
   websocket::stream<WebStream> socket_;
-  net::steady_timer awake_;  // never expires: waiting for it is waiting for wake()
+  net::steady_timer awake_;  // waiting for it is waiting for wake(), at most kRecheckInterval
   net::steady_timer next_read_;
   net::steady_timer write_end_;
   MessagePace pace_;

@@ -12,7 +12,7 @@ import unittest
 from urllib.parse import quote
 
 from browser import CHROMIUM, Browser
-from web_client import Server, WebSocket, asked, fetch
+from web_client import Server, Stream, WebSocket, asked, fetch, request_bytes
 
 PROGRAM = sys.argv.pop(1)
 LIVE = "document.documentElement.dataset.state === 'live'"
@@ -122,6 +122,24 @@ class SignInTest(TokenCase):
         self.tokens.revoke("watch")
         time.sleep(1.5)
         self.assertEqual(self.status(link), 401)
+
+    def play_by_link(self, seconds):
+        target = quote("/stream/painted_qs4x2a1.mjpg?width=320&height=160")
+        link = self.ask(f"/api/link?target={target}&seconds={seconds}", self.watch).json()["url"]
+        stream = Stream(self.server.port)
+        self.addCleanup(stream.close)
+        stream.send(request_bytes(self.server.port, link))
+        self.assertEqual(stream.read_reply().status, 200)
+        return stream
+
+    def test_a_player_ends_with_its_link(self):
+        # The picture stands: nothing is sent that would end it sooner.
+        self.assertTrue(self.play_by_link(2).file.read().endswith(b"\r\n--viewloom--\r\n"))
+
+    def test_a_player_ends_with_the_token_of_its_link(self):
+        stream = self.play_by_link(3600)
+        self.tokens.revoke("watch")
+        self.assertTrue(stream.file.read().endswith(b"\r\n--viewloom--\r\n"))
 
     def test_a_code_leads_to_this_server_only(self):
         target = quote("/stream/painted/portrait?width=800&height=600")

@@ -237,6 +237,21 @@ TEST_F(Access, signsLinksThatExpire) {
   }
 }
 
+TEST_F(Access, endsCallersWithTheirLink) {
+  const std::string token = add("a");
+  const auto access = open();
+  const auto signer = access->admit(kApiLink, "peer", token);
+  const auto link = access->sign(*signer, target_, 10);
+  const auto caller = access->admitLink("/stream/x", "peer", link->signature, target_);
+  ASSERT_TRUE(caller.ok()) << caller.status();
+  now_s_ += 9;
+  EXPECT_TRUE(caller->recheck().ok());
+  now_s_ += 1;
+  EXPECT_EQ(caller->recheck().code(), kUnauthenticated);
+  EXPECT_THAT(std::string(caller->recheck().message()), HasSubstr("the link has expired"));
+  EXPECT_TRUE(signer->recheck().ok());
+}
+
 TEST_F(Access, signsLinksForJwts) {
   const SigningKey key = SigningKey::ed25519();
   writeKeys(json::array({key.jwk()}));
