@@ -19,7 +19,8 @@
 namespace viewloom {
 namespace {
 
-constexpr uint32_t kRefusalsPerSecondMax = 100;
+// Foreign text, such as the name of a stream that is not there, may be long.
+constexpr size_t kReasonBytesMax = 512;
 
 const char* wordOf(AuditOutcome outcome) {
   switch (outcome) {
@@ -57,6 +58,7 @@ std::string auditLine(const AuditEvent& event, int64_t now_s) {
   }
   if (!event.stream.empty()) object["stream"] = event.stream;
   if (!event.reason.empty()) object["reason"] = event.reason;
+  if (event.count > 0) object["count"] = event.count;
   // Foreign text may be no UTF-8.
   return object.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -74,6 +76,7 @@ AuditLog::AuditLog(std::string path, WallClock now_s)
 }
 
 AuditLog::~AuditLog() {
+  if (!path_.empty()) tellCounted();
   if (descriptor_ >= 0) ::close(descriptor_);
 }
 
@@ -106,35 +109,23 @@ void AuditLog::append(const std::string& line) {
   has_failed_ = !is_written;
 }
 
-bool AuditLog::isLeftOut(int64_t now_s) {
-  if (now_s != second_s_) {
-    tellLeftOut();
-    second_s_ = now_s;
-    refusal_count_ = 0;
+void AuditLog::tellCounted() {
+  for (const AuditWindow::Counted& counted : window_.close()) {
+    append(auditLine(counted.event, counted.last_s));
   }
-  if (++refusal_count_ <= kRefusalsPerSecondMax) return false;
-  ++left_out_count_;
-  return true;
-}
-
-void AuditLog::tellLeftOut() {
-  if (left_out_count_ == 0) return;
-  append(auditLine({.outcome = AuditOutcome::kRefused,
-                    .operation = "audit",
-                    .peer = "",
-                    .identity = nullptr,
-                    .stream = "",
-                    .reason = strCat(left_out_count_, " further refusals in one second")},
-                   second_s_));
-  left_out_count_ = 0;
 }
 
 void AuditLog::write(const AuditEvent& event) {
   if (path_.empty()) return;
   const int64_t now_s = now_s_();
+  AuditEvent shown = event;
+  shown.stream = wholeCharacters(event.stream, kQuotationBytesMax);
+  shown.reason = wholeCharacters(event.reason, kReasonBytesMax);
   std::lock_guard lock(mutex_);
-  if (event.outcome == AuditOutcome::kRefused && isLeftOut(now_s)) return;
-  append(auditLine(event, now_s));
+  if (window_.isOver(now_s)) tellCounted();
+  // The operator alone changes something.
+  const bool is_told = shown.outcome == AuditOutcome::kChanged || window_.isNew(shown, now_s);
+  if (is_told) append(auditLine(shown, now_s));
 }
 
 }  // namespace viewloom

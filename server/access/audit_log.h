@@ -5,29 +5,19 @@
 //    "peer": "10.0.0.7", "proof": "token", "id": "camera-1", "stream": "room.1", "reason": "..."}
 #pragma once
 
-#include <cstdint>
 #include <mutex>
 #include <string>
-#include <string_view>
 
-#include "access/identity.h"
+#include "access/audit_event.h"
+#include "access/audit_window.h"
 #include "access/utc_time.h"
 
 namespace viewloom {
 
-enum class AuditOutcome : uint8_t { kGranted, kRefused, kChanged };
-
-struct AuditEvent {
-  AuditOutcome outcome = AuditOutcome::kGranted;
-  std::string_view operation;
-  std::string peer;
-  IdentityPtr identity;  // null = nobody is proven
-  std::string stream;
-  std::string reason;
-};
-
-// Appends to a file that only its owner may read. A file that was moved away is opened anew. At
-// most 100 refusals a second are written; a further line says how many were left out.
+// Appends to a file that only its owner may read. A file that was moved away is opened anew. Equal
+// events of ten minutes become one line at once and one with their count ("count": 41), which is
+// written with the first event after the ten minutes, or at the end. The same holds for events of
+// one client beyond a thousand lines (audit_window.h).
 // Thread-safety: may be called from any thread.
 class AuditLog {
  public:
@@ -44,16 +34,13 @@ class AuditLog {
   void open();
   void reopenIfMoved();
   void append(const std::string& line);
-  bool isLeftOut(int64_t now_s);
-  void tellLeftOut();
+  void tellCounted();
 
   const std::string path_;
   const WallClock now_s_;
   std::mutex mutex_;
   int descriptor_ = -1;
-  int64_t second_s_ = 0;        // of the refusals below
-  uint32_t refusal_count_ = 0;  // in this second
-  uint64_t left_out_count_ = 0;
+  AuditWindow window_;
   bool has_failed_ = false;  // said in the log once
 };
 

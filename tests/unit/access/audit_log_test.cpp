@@ -69,21 +69,56 @@ TEST_F(Audit, isForItsOwnerAlone) {
   EXPECT_EQ(status.st_mode & 0777, 0600U);
 }
 
-TEST_F(Audit, countsFloodsOfRefusals) {
-  for (int i = 0; i < 250; ++i) log_.write(refusal());
-  EXPECT_EQ(lines().size(), 100U);
-  ++now_s_;
-  log_.write(refusal());
+TEST_F(Audit, countsEqualEvents) {
+  AuditEvent grant = refusal();
+  grant.outcome = AuditOutcome::kGranted;
+  for (int i = 0; i < 250; ++i, ++now_s_) {
+    log_.write(refusal());
+    log_.write(grant);
+  }
+  EXPECT_EQ(lines().size(), 2U);
+  now_s_ += AuditWindow::kSeconds;
+  log_.write(grant);
   const std::vector<json> written = lines();
-  ASSERT_EQ(written.size(), 102U);
-  EXPECT_EQ(written[100]["reason"], "150 further refusals in one second");
+  ASSERT_EQ(written.size(), 5U);
+  for (const size_t line : {2U, 3U}) {
+    EXPECT_EQ(written[line]["count"], 249);
+    EXPECT_EQ(written[line]["time"], "2027-01-31T12:04:09Z");
+    EXPECT_EQ(written[line]["stream"], "demo");
+  }
+  EXPECT_FALSE(written[4].contains("count"));
+}
+
+TEST_F(Audit, tellsEachChangeOfAFile) {
+  AuditEvent change = refusal();
+  change.outcome = AuditOutcome::kChanged;
+  for (int i = 0; i < 3; ++i) log_.write(change);
+  EXPECT_EQ(lines().size(), 3U);
+}
+
+TEST_F(Audit, tellsCountsAtItsEnd) {
+  {
+    AuditLog log(path_, [this] { return now_s_; });
+    for (int i = 0; i < 3; ++i) log.write(refusal());
+    EXPECT_EQ(lines().size(), 1U);
+  }
+  EXPECT_EQ(lines().back()["count"], 2);
+}
+
+TEST_F(Audit, cutsLongNames) {
+  AuditEvent event = refusal();
+  event.stream = std::string(5000, 'x');
+  log_.write(event);
+  EXPECT_EQ(lines().front()["stream"], std::string(128, 'x'));
 }
 
 TEST_F(Audit, goesOnInANewFileOnceItWasMoved) {
   log_.write(refusal());
   const std::string moved = path_ + ".1";
   std::filesystem::rename(path_, moved);
-  log_.write(refusal());
+  AuditEvent other = refusal();
+  other.stream = "hall";
+  log_.write(other);
   EXPECT_EQ(lines().size(), 1U);
   EXPECT_EQ(linesOf(moved).size(), 1U);
   std::filesystem::remove(moved);
