@@ -5,7 +5,7 @@
 
 #include <grpcpp/server_context.h>
 
-#include "admission/out_of_memory.h"
+#include "admission/request_boundary.h"
 #include "rpc/status_to_grpc.h"
 
 namespace viewloom {
@@ -30,7 +30,7 @@ void BidiCall::end(const absl::Status& status) {
     end_status_ = statusToGrpc(status);
     handling = handling_;
   }
-  release();
+  letGo();
   if (!handling) dropReads();
   std::lock_guard lock(mutex_);
   advance();
@@ -60,7 +60,7 @@ void BidiCall::OnReadDone(bool ok) {
 
 void BidiCall::handle(bool ok) {
   const absl::Status status =
-      unlessOutOfMemory([&] { return ok ? handleMessage(incoming_) : handleHalfClose(); });
+      unlessThrown([&] { return ok ? handleMessage(incoming_) : handleHalfClose(); });
   if (!status.ok()) end(status);
   bool ended = false;
   {
@@ -73,7 +73,11 @@ void BidiCall::handle(bool ok) {
 
 void BidiCall::OnWriteDone(bool ok) {
   if (ok) {
-    handleWritten();
+    const absl::Status status = unlessThrown([this] {
+      handleWritten();
+      return absl::OkStatus();
+    });
+    if (!status.ok()) end(status);
   } else {
     OnCancel();
   }
@@ -99,20 +103,28 @@ void BidiCall::OnDone() {
     context_ = nullptr;
   }
   if (releases_when_done_) {
-    release();
+    letGo();
     dropReads();
   }
   // The last reaction: with its own reference the call may go, once nobody outside holds it.
   const std::shared_ptr<BidiCall> self = std::move(self_);
 }
 
+void BidiCall::letGo() {
+  try {
+    release();
+  } catch (const std::exception& thrown) {
+    noteThrown("the end of a call", thrown);
+  }
+}
+
 // Parts of a message may be half taken, so that nothing can follow it.
 std::optional<grpc::ByteBuffer> BidiCall::nextMessage() {
   try {
     return takeMessage();
-  } catch (const std::bad_alloc&) {
+  } catch (const std::exception& thrown) {
     releases_when_done_ = !end_status_.has_value();
-    if (releases_when_done_) end_status_ = statusToGrpc(outOfMemory());
+    if (releases_when_done_) end_status_ = statusToGrpc(refusalFor(thrown));
     return std::nullopt;
   }
 }

@@ -62,8 +62,8 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
   // False holds the end back although there is nothing to write yet. With the lock.
   virtual bool mayFinish() const { return true; }
 
-  // Writes, reads or finishes if there is reason to. A call that has no memory to write ends with
-  // RESOURCE_EXHAUSTED. With the lock.
+  // Writes, reads or finishes if there is reason to. A call whose message cannot be made ends
+  // with RESOURCE_EXHAUSTED for want of memory, else with INTERNAL. With the lock.
   void advance();
   bool ending() const { return end_status_.has_value(); }
   bool halfClosed() const { return half_closed_; }
@@ -72,6 +72,8 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
 
  private:
   void handle(bool ok);
+  // Calls release(): nobody is there who could be told about an exception.
+  void letGo();
   std::optional<grpc::ByteBuffer> nextMessage();
 
   std::shared_ptr<BidiCall> self_;

@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "admission/out_of_memory.h"
+#include "admission/request_boundary.h"
 #include "display/named_display.h"
 #include "display/source_advice.h"
 #include "messages/display_from_proto.h"
@@ -108,9 +108,10 @@ v1::AdviseSourceResponse adviceToProto(const SourceAdvice& advice) {
 template <typename Fill>
 grpc::ServerUnaryReactor* answer(AccessControl& access, grpc::CallbackServerContext* context,
                                  std::string_view rpc, const Fill& fill) {
-  const absl::StatusOr<Caller> caller = admitCall(access, *context, rpc);
-  const absl::Status status =
-      caller.ok() ? unlessOutOfMemory([&] { return fill(*caller); }) : caller.status();
+  const absl::Status status = unlessThrown([&]() -> absl::Status {
+    const absl::StatusOr<Caller> caller = admitCall(access, *context, rpc);
+    return caller.ok() ? fill(*caller) : caller.status();
+  });
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   reactor->Finish(statusToGrpc(status));
   return reactor;

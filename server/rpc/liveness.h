@@ -7,10 +7,10 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
-#include <new>
 #include <thread>
 #include <utility>
 
+#include "admission/request_boundary.h"
 #include "base/thread_name.h"
 
 namespace viewloom {
@@ -46,8 +46,8 @@ class Ticker {
           while (!never.wait_for(lock, stop, interval, [&] { return stop.stop_requested(); })) {
             try {
               on_tick();
-            } catch (const std::bad_alloc&) {
-              // Calls hear of the next tick.
+            } catch (const std::exception& thrown) {
+              noteThrown("a tick of the calls", thrown);  // they hear of the next one
             }
           }
         }) {}

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "admission/out_of_memory.h"
+#include "admission/request_boundary.h"
 #include "base/str_cat.h"
 #include "messages/wire_message.h"
 #include "rpc/frame_from_proto.h"
@@ -35,7 +35,7 @@ void countOutcome(const IngestParts& parts, const std::string& stream, FrameOutc
 
 template <typename Act>
 void PublishCall::actOrEnd(const Act& act) {
-  const absl::Status status = unlessOutOfMemory([&] {
+  const absl::Status status = unlessThrown([&] {
     act();
     return absl::OkStatus();
   });

@@ -78,7 +78,7 @@ class PublishCall final : public BidiCall {
   absl::Status handleHeader(const v1::FrameHeader& header);
   absl::StatusOr<Reservation> admit(const FrameFormat& format);
   void offerFrame();
-  // A want of memory ends the call.
+  // An exception ends the call.
   template <typename Act>
   void actOrEnd(const Act& act);
   void onReport(const FrameReport& report);

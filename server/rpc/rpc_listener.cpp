@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "admission/request_boundary.h"
 #include "base/send_queue.h"
 #include "base/str_cat.h"
 #include "base/thread_name.h"
@@ -115,13 +116,22 @@ void RpcListener::acceptFrom(int listener_fd) {
     const int fd = accept4(listener_fd, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
     if (fd >= 0) {
       lacks_descriptors_ = false;
-      take(listener_fd, fd);
+      takeOrClose(listener_fd, fd);
       continue;
     }
     if (errno == EINTR || errno == ECONNABORTED) continue;
     // Anything else but an empty queue is a lack of descriptors or memory, which passes.
     lacks_descriptors_ = errno != EAGAIN && errno != EWOULDBLOCK;
     return;
+  }
+}
+
+void RpcListener::takeOrClose(int listener_fd, int fd) {
+  try {
+    take(listener_fd, fd);
+  } catch (const std::exception& thrown) {
+    noteThrown("accepting a gRPC connection", thrown);
+    close(fd);
   }
 }
 

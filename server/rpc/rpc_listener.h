@@ -31,7 +31,7 @@ struct RpcListenerOptions {
 // Thread-safety: status() and connectionCount() may be called from any thread; the rest from one.
 class RpcListener {
  public:
-  // Takes a connection that was accepted on that listening socket.
+  // Takes a connection that was accepted on that listening socket. If it throws, it has not.
   using HandOver = std::function<void(int listener_fd, int fd)>;
 
   // Listens, and accepts nothing yet. Throws std::runtime_error when the address cannot be had.
@@ -55,6 +55,8 @@ class RpcListener {
  private:
   void run(const std::stop_token& stop);
   void acceptFrom(int listener_fd);
+  // A connection for which nothing is left is closed, and others are accepted.
+  void takeOrClose(int listener_fd, int fd);
   void take(int listener_fd, int fd);
   bool isFull() const;  // under mutex_
 

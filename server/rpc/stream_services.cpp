@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/stream_services.h"
 
+#include "admission/request_boundary.h"
 #include "rpc/peer_host.h"
 #include "rpc/status_to_grpc.h"
 #include "rpc/tls_credentials.h"
@@ -27,7 +28,8 @@ std::string hostOf(const grpc::CallbackServerContext& context) {
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::PublishFrames(
     grpc::CallbackServerContext* context) {
-  absl::StatusOr<Caller> caller = admitLiveCall(access_, *context, kPublishFrames);
+  absl::StatusOr<Caller> caller =
+      unlessThrown([&] { return admitLiveCall(access_, *context, kPublishFrames); });
   if (!caller.ok()) return new RefusedCall(caller.status());
   const auto call = std::make_shared<PublishCall>(parts_, *std::move(caller), hostOf(*context));
   call->setContext(*context);
@@ -56,7 +58,8 @@ void IngestService::drain() {
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* DisplayService::StreamAtlases(
     grpc::CallbackServerContext* context) {
-  absl::StatusOr<Caller> caller = admitLiveCall(access_, *context, kStreamAtlases);
+  absl::StatusOr<Caller> caller =
+      unlessThrown([&] { return admitLiveCall(access_, *context, kStreamAtlases); });
   if (!caller.ok()) return new RefusedCall(caller.status());
   const auto call = std::make_shared<WatchCall>(parts_, *std::move(caller), hostOf(*context));
   call->setContext(*context);

@@ -128,6 +128,17 @@ TEST(RpcListener, goesOnAfterThereWasNoDescriptor) {
   EXPECT_TRUE(keeping.listener().status().ok());
 }
 
+TEST(RpcListener, closesAConnectionThatNobodyCanTakeAndGoesOn) {
+  const Metrics metrics;
+  RpcListener listener({.address = "127.0.0.1:0", .connection_count_max = 10}, metrics);
+  listener.start([](int, int) { throw std::runtime_error("planted"); });
+  for (int i = 0; i < 2; ++i) {
+    const Client client;
+    ASSERT_TRUE(client.connectTo(listener.port()));
+    EXPECT_TRUE(client.isClosed());
+  }
+}
+
 TEST(RpcListener, saysWhichAddressCannotBeHad) {
   KeepingListener keeping(1);
   const Metrics metrics;
