@@ -14,6 +14,7 @@
 
 #include "admission/frame_price.h"
 #include "admission/out_of_memory.h"
+#include "admission/request_boundary.h"
 #include "base/latest_mailbox.h"
 #include "base/log.h"
 #include "base/thread_name.h"
@@ -100,7 +101,7 @@ struct FrameIntake::State {
   bool closed = false;
   std::vector<std::jthread> threads;  // last: they use what is above
 
-  // Memory that runs out beside the frames themselves costs a stream its turn.
+  // An exception beside the frames themselves costs a stream its turn.
   void decode(PlaneDecoder& decoder) {
     for (bool is_open = true; is_open;) {
       try {
@@ -108,6 +109,8 @@ struct FrameIntake::State {
         is_open = false;
       } catch (const std::bad_alloc&) {
         log(LogLevel::kWarning, "no memory is left to decode; trying again");
+      } catch (const std::exception& thrown) {
+        noteThrown("decoding", thrown);
       }
     }
   }
@@ -125,7 +128,7 @@ struct FrameIntake::State {
       if (open->claimed_count == open->planes.size()) std::erase(open_frames, open);
       large_count += open->is_large;
       lock.unlock();
-      open->decoded[plane] = unlessOutOfMemory([&] {
+      open->decoded[plane] = unlessThrown([&] {
         if (plane == 0) open->frame.on_taken();
         return decoder.decode(*open->planes[plane], std::move(open->frame.collected.planes[plane]));
       });
@@ -134,7 +137,7 @@ struct FrameIntake::State {
       if (open->is_large) work.notify_one();
       if (--open->unfinished_count > 0) continue;
       lock.unlock();
-      deliver(*open);
+      deliverOrTell(*open);
       lock.lock();
       finish(open->stream);
     }
@@ -196,12 +199,22 @@ struct FrameIntake::State {
     return heldFrame(*std::move(frame), std::move(collected.memory));
   }
 
+  // The stream goes on also where nobody could take its frame.
+  void deliverOrTell(OpenFrame& open) {
+    try {
+      deliver(open);
+    } catch (const std::exception& thrown) {
+      noteThrown("handing over a frame", thrown);
+      sink.noteLost(open.stream);
+    }
+  }
+
   void deliver(OpenFrame& open) {
     WaitingFrame& waiting = open.frame;
     const uint64_t number = waiting.collected.format.number;
     const uint64_t session = waiting.collected.session;
     const Payer publisher(waiting.collected.publisher);
-    absl::StatusOr<FramePtr> frame = unlessOutOfMemory([&] { return join(open); });
+    absl::StatusOr<FramePtr> frame = unlessThrown([&] { return join(open); });
     if (!frame.ok()) {
       reportRefused(waiting.report, number, frame.status());
       return sink.noteLost(open.stream);

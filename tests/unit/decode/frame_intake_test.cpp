@@ -8,6 +8,7 @@
 #include <condition_variable>
 #include <map>
 #include <mutex>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -118,6 +119,30 @@ class FrameIntakeTest : public testing::Test {
   FrameIntake intake_{
       sink_, clock_, pool_, {.thread_count = 3, .on_replaced = [this] { ++replaced_count_; }}};
 };
+
+// Takes no frame.
+class FailingSink : public FrameSink {
+ public:
+  void offerFrame(const FrameOrigin&, FramePtr, ReportFrame) override {
+    ++offered_count;
+    throw std::runtime_error("planted");
+  }
+  void forgetStream(const std::string&) override {}
+  std::atomic<int> offered_count = 0;
+};
+
+TEST(FrameIntake, goesOnAfterAFrameThatNobodyCouldTake) {
+  FailingSink sink;
+  ManualClock clock;
+  BytePool pool(16);
+  FrameIntake intake(sink, clock, pool, {.thread_count = 1});
+  for (int number = 1; number <= 2; ++number) {
+    intake.offer("a", onePixel(uint64_t(number)), {}, [](const FrameReport&) {});
+    while (sink.offered_count < number) std::this_thread::yield();
+  }
+  intake.close();
+  EXPECT_EQ(sink.offered_count, 2);
+}
 
 TEST_F(FrameIntakeTest, deliversADecodedFrameWithItsTimes) {
   clock_.advance(99);
