@@ -2,9 +2,6 @@
 // The parts of Asio and Beast that web uses, under short names.
 #pragma once
 
-#include <exception>
-#include <functional>
-#include <new>
 #include <utility>  // Boost 1.74's awaitable.hpp needs it and does not include it
 
 #include <boost/asio/awaitable.hpp>
@@ -39,24 +36,5 @@ using ErrorCode = boost::system::error_code;
 inline auto into(ErrorCode& error) {
   return net::redirect_error(net::use_awaitable, error);
 }
-
-// The end of a coroutine that nobody awaits. Where memory ran out in it, what it served ends, by
-// the call that is given; other exceptions are bugs.
-class OnceEnded {
- public:
-  explicit OnceEnded(std::function<void()> give_up = [] {}) : give_up_(std::move(give_up)) {}
-
-  void operator()(const std::exception_ptr& error) const {
-    if (!error) return;
-    try {
-      std::rethrow_exception(error);
-    } catch (const std::bad_alloc&) {
-      give_up_();
-    }
-  }
-
- private:
-  std::function<void()> give_up_;
-};
 
 }  // namespace viewloom

@@ -5,18 +5,18 @@
 #include <utility>
 #include <vector>
 
-#include "admission/out_of_memory.h"
+#include "admission/request_boundary.h"
 #include "base/send_queue.h"
-#include "base/str_cat.h"
 #include "web/admission.h"
+#include "web/http_wire.h"
 #include "web/multipart_stream.h"
+#include "web/once_ended.h"
 #include "web/session.h"
 #include "web/viewer.h"
 
 namespace viewloom {
 namespace {
 
-constexpr unsigned kHttpVersion11 = 11;
 constexpr unsigned kNotModified = 304;
 // For the other side to confirm the end of an encrypted connection.
 constexpr std::chrono::milliseconds kGoodbyeTime{1000};
@@ -29,50 +29,6 @@ std::string addressOf(const tcp::socket& socket) {
   ErrorCode error;
   const tcp::endpoint peer = socket.remote_endpoint(error);
   return error ? "" : peer.address().to_string();
-}
-
-// The reply to bytes that are no request; none when the other side just went.
-std::optional<HttpReply> replyToBroken(const ErrorCode& error) {
-  if (error == http::error::header_limit) {
-    return errorReply(
-        431,
-        invalidField("header", strCat("the header of the request is too long; accepted is up to ",
-                                      HttpOptions{}.header_bytes_max,
-                                      " bytes. Send a long display over the WebSocket /ws, as "
-                                      "a change")));
-  }
-  if (error == http::error::body_limit) {
-    return errorReply(
-        413, invalidField("body", "the request has a body; accepted is a request without one"));
-  }
-  const bool is_http = error.category() == make_error_code(http::error::bad_method).category();
-  if (!is_http || error == http::error::end_of_stream) return std::nullopt;
-  return errorReply(400, invalidField("request", "the request is not HTTP: " + error.message()));
-}
-
-HttpAnswer answerKind(unsigned status) {
-  if (status >= 500) return HttpAnswer::kServerError;
-  if (status >= 400) return HttpAnswer::kClientError;
-  return status >= 300 ? HttpAnswer::kRedirect : HttpAnswer::kSuccess;
-}
-
-std::vector<net::const_buffer> bodyOf(const HttpReply& reply) {
-  std::vector<net::const_buffer> body;
-  body.push_back(net::buffer(reply.text));
-  body.emplace_back(reply.fixed.data(), reply.fixed.size());
-  for (const SharedBytes& bytes : reply.shared) body.push_back(net::buffer(*bytes));
-  return body;
-}
-
-// Without what says how long the body is, and what becomes of the connection.
-http::response<http::empty_body> headOf(const HttpReply& reply) {
-  http::response<http::empty_body> head(http::int_to_status(reply.status), kHttpVersion11);
-  head.set(http::field::server, "viewloom");
-  head.set("X-Content-Type-Options", "nosniff");
-  head.set("Cross-Origin-Resource-Policy", "same-origin");
-  if (!reply.type.empty()) head.set(http::field::content_type, reply.type);
-  for (const auto& [name, value] : reply.headers) head.set(name, value);
-  return head;
 }
 
 }  // namespace
@@ -235,8 +191,8 @@ net::awaitable<void> Connection::read(Parser& parser, ErrorCode& error) {
 net::awaitable<HttpReply> Connection::replyTo(HttpRequest request) {
   try {
     co_return co_await answer(context_, std::move(request));
-  } catch (const std::bad_alloc&) {
-    co_return errorReply(outOfMemory());
+  } catch (const std::exception& thrown) {
+    co_return errorReply(refusalFor(thrown));
   }
 }
 
@@ -248,10 +204,15 @@ net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& reques
     co_await write(reply, parser, false, error);
     co_return;
   }
-  absl::StatusOr<Caller> caller = admitViewer(context_, request, *url);
-  const absl::Status admitted = caller.ok() ? caller->stay() : caller.status();
-  if (!admitted.ok()) {
-    co_await write(errorReply(admitted), parser, false, error);
+  absl::StatusOr<Caller> caller = unlessThrown([&]() -> absl::StatusOr<Caller> {
+    absl::StatusOr<Caller> admitted = admitViewer(context_, request, *url);
+    VIEWLOOM_RETURN_IF_ERROR(admitted.status());
+    VIEWLOOM_RETURN_IF_ERROR(admitted->stay());
+    return admitted;
+  });
+  if (!caller.ok()) {
+    const HttpReply reply = errorReply(caller.status());
+    co_await write(reply, parser, false, error);
     co_return;
   }
   const std::string identity = caller->shareName(host_);
@@ -266,10 +227,12 @@ net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& reques
 
 net::awaitable<bool> Connection::play(HttpReply& reply) {
   Caller& caller = reply.live->caller;
-  absl::Status status = caller.stay();
-  const auto player =
-      std::make_shared<MultipartStream>(context_, caller, strand_, caller.shareName(host_));
-  if (status.ok()) status = player->subscribe(reply.live->request);
+  std::shared_ptr<MultipartStream> player;
+  const absl::Status status = unlessThrown([&]() -> absl::Status {
+    VIEWLOOM_RETURN_IF_ERROR(caller.stay());
+    player = std::make_shared<MultipartStream>(context_, caller, strand_, caller.shareName(host_));
+    return player->subscribe(reply.live->request);
+  });
   if (!status.ok()) {
     reply = errorReply(status);
     co_return false;

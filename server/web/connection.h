@@ -63,7 +63,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   net::awaitable<void> read(Parser& parser, ErrorCode& error);
   // Refuses what the client is not admitted to.
   std::optional<HttpReply> refusalOf(const HttpRequest& request) const;
-  // The reply, or that there is no memory for it.
+  // The reply, or that the server has failed at it.
   net::awaitable<HttpReply> replyTo(HttpRequest request);
   net::awaitable<void> watch(Parser& parser, const HttpRequest& request);
   // True when the connection went to the player; else nothing was written, and `reply` says why.

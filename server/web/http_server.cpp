@@ -17,6 +17,7 @@
 #include "base/str_cat.h"
 #include "base/thread_name.h"
 #include "web/connection.h"
+#include "web/once_ended.h"
 #include "web/tls_contexts.h"
 
 namespace viewloom {
@@ -105,7 +106,8 @@ struct HttpServer::State {
   ConnectionList living();
 };
 
-// Handlers that find no memory are dropped: what they served has been told, or ends by a timeout.
+// Handlers that an exception leaves are dropped: what they served has been told, or ends by a
+// timeout.
 void HttpServer::State::run() {
   for (bool is_running = true; is_running;) {
     try {
@@ -113,6 +115,8 @@ void HttpServer::State::run() {
       is_running = false;
     } catch (const std::bad_alloc&) {
       log(LogLevel::kWarning, "no memory is left to serve an HTTP client; it is dropped");
+    } catch (const std::exception& thrown) {
+      noteThrown("the service of an HTTP client", thrown);
     }
   }
 }
@@ -126,7 +130,8 @@ net::awaitable<void> HttpServer::State::acceptOne(ErrorCode& error) {
     tcp::socket socket(net::make_strand(io));
     co_await acceptor.async_accept(socket, into(error));
     if (!error) take(std::move(socket));
-  } catch (const std::bad_alloc&) {
+  } catch (const std::exception& thrown) {
+    noteThrown("accepting an HTTP connection", thrown);
     error = net::error::no_memory;
   }
 }

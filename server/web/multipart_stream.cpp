@@ -10,6 +10,7 @@
 
 #include "web/admission.h"
 #include "web/atlas_message.h"
+#include "web/once_ended.h"
 #include "web/quilt_address.h"
 
 namespace viewloom {
@@ -105,7 +106,7 @@ void MultipartStream::leave() {
 }
 
 void MultipartStream::cut() {
-  stream_->close();
+  if (stream_) stream_->close();
 }
 
 // A player sends nothing more; reading tells when it goes, also while there is nothing to write.

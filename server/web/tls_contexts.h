@@ -16,7 +16,9 @@ class TlsContexts {
   // `material` gives what new connections are to use; it never gives null.
   explicit TlsContexts(std::function<TlsMaterialPtr()> material);
 
-  // TLS 1.2 or 1.3, for servers. It stays the same until the material changes.
+  // TLS 1.2 or 1.3, for servers. It stays the same until the material changes. Throws
+  // std::bad_alloc or boost::system::system_error when there is no memory for another; the next
+  // call tries again.
   std::shared_ptr<ssl::context> current();
 
  private:

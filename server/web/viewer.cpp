@@ -3,13 +3,14 @@
 
 #include <nlohmann/json.hpp>
 
-#include "admission/out_of_memory.h"
+#include "admission/request_boundary.h"
 #include "base/printable.h"
 #include "messages/message_from_json.h"
 #include "viewloom/v1/web_socket.pb.h"
 #include "web/admission.h"
 #include "web/atlas_message.h"
 #include "web/http_reply.h"
+#include "web/once_ended.h"
 
 namespace viewloom {
 namespace {
@@ -61,7 +62,7 @@ net::awaitable<void> Viewer::run(http::request<http::empty_body> request, std::s
   ErrorCode error;
   co_await socket_.async_accept(request, into(error));
   if (error) co_return;
-  if (const absl::Status status = unlessOutOfMemory([&] { return open(); }); !status.ok()) {
+  if (const absl::Status status = unlessThrown([&] { return open(); }); !status.ok()) {
     co_await writeText(errorJson(status), error);
     co_await close(status);
     co_return;
@@ -70,10 +71,8 @@ net::awaitable<void> Viewer::run(http::request<http::empty_body> request, std::s
       socket_.get_executor(), [self] { return self->writeMessages(); },
       OnceEnded([self] { self->cut(); }));
   co_await readMessages();
-  gone_ = true;
   subscription_.reset();
   cut();  // also what is being written: nobody reads it
-  wake();
 }
 
 void Viewer::leave() {
@@ -82,8 +81,10 @@ void Viewer::leave() {
 }
 
 void Viewer::cut() {
+  gone_ = true;
   next_read_.cancel();
   socket_.next_layer().close();
+  wake();
 }
 
 absl::Status Viewer::open() {
@@ -126,11 +127,15 @@ net::awaitable<void> Viewer::readMessages() {
     co_await socket_.async_read(buffer, into(error));
     if (error) co_return;
     const auto bytes = buffer.cdata();
-    const absl::Status status = unlessOutOfMemory([&] {
+    const absl::Status status = unlessThrown([&] {
       return takeMessage({static_cast<const char*>(bytes.data()), bytes.size()});
     });
     buffer.consume(bytes.size());
-    if (!status.ok()) pending_error_ = errorJson(status);
+    if (absl::IsInternal(status)) {
+      failure_ = status;
+    } else if (!status.ok()) {
+      pending_error_ = errorJson(status);
+    }
     wake();
     co_await keepPace(bytes.size(), error);
     if (error) co_return;
@@ -185,8 +190,21 @@ void Viewer::noteShown(uint64_t delivery) {
   }
 }
 
+// A viewer that runs out of memory is cut: a close frame takes memory, too.
 net::awaitable<void> Viewer::writeMessages() {
   const auto self = shared_from_this();
+  try {
+    co_await writeUntilEnd();
+    co_return;
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& thrown) {
+    failure_ = refusalFor(thrown);
+  }
+  co_await close(*failure_);
+}
+
+net::awaitable<void> Viewer::writeUntilEnd() {
   ErrorCode error;
   while (!error && !gone_) {
     if (pending_error_) {
@@ -199,7 +217,7 @@ net::awaitable<void> Viewer::writeMessages() {
       co_await writeText(std::move(text), error);
       continue;
     }
-    std::optional<absl::Status> ended = inbox_->ended();
+    std::optional<absl::Status> ended = failure_ ? failure_ : inbox_->ended();
     if (absl::Status status = caller_.recheck(); !ended && !status.ok()) ended = std::move(status);
     if (leaving_) ended = absl::OkStatus();
     if (ended) {
@@ -259,12 +277,15 @@ net::awaitable<void> Viewer::close(const absl::Status& status) {
   subscription_.reset();
   websocket::close_reason reason(websocket::close_code::going_away);
   if (!status.ok()) {
-    reason.code = websocket::close_code::policy_error;
+    reason.code = absl::IsInternal(status) ? websocket::close_code::internal_error
+                                           : websocket::close_code::policy_error;
     const std::string message(status.message());
     reason.reason = std::string(wholeCharacters(message, kCloseReasonBytesMax));
   }
   ErrorCode error;
+  beginOfWrite();
   co_await socket_.async_close(reason, into(error));
+  endOfWrite();
 }
 
 }  // namespace viewloom

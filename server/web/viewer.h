@@ -53,6 +53,7 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   // Waits until the next message may be read.
   net::awaitable<void> keepPace(size_t message_bytes, ErrorCode& error);
   net::awaitable<void> writeMessages();
+  net::awaitable<void> writeUntilEnd();
   // From now on the client has transfer_timeout to take what is written, until endOfWrite(). Pings
   // tell nothing about that: a client may answer, and read no more.
   void beginOfWrite();
@@ -78,6 +79,7 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   std::shared_ptr<AtlasInbox> inbox_;
   std::unique_ptr<Broadcaster::Subscription> subscription_;
   std::deque<UnderWay> under_way_;
+  std::optional<absl::Status> failure_;       // INTERNAL: the session ends
   std::optional<std::string> pending_error_;  // the newest
   std::optional<uint64_t> pending_pong_;      // the newest
   uint64_t change_count_ = 0;                 // asked for, also in vain
