@@ -2,6 +2,8 @@
 // The boundary of one frame's, or one atlas's, work: what runs out of memory is given up alone.
 #pragma once
 
+#include <new>
+
 #include "admission/out_of_memory.h"
 #include "base/status.h"
 #include "engine/engine.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each large allocation on the way of a request fails in turn: the request is refused, and the next
 // one is served.
-#include "admission/out_of_memory.h"
+#include "admission/request_boundary.h"
 
 #include <gtest/gtest.h>
 
@@ -147,7 +147,7 @@ TEST(OutOfMemory, leavesAnEncoderFitForTheNextBand) {
     const size_t expected_bytes = BandEncoder(pool).encode(band, encoding, layout).bytes->size();
     failEachIn([&](const Arm& arm) {
       arm();
-      const absl::Status status = unlessOutOfMemory([&] {
+      const absl::Status status = unlessThrown([&] {
         encoder.encode(band, encoding, layout);
         return absl::OkStatus();
       });
@@ -159,7 +159,7 @@ TEST(OutOfMemory, leavesAnEncoderFitForTheNextBand) {
 }
 
 TEST(OutOfMemory, isWorthAnotherTry) {
-  const absl::Status status = unlessOutOfMemory([]() -> absl::Status { throw std::bad_alloc(); });
+  const absl::Status status = unlessThrown([]() -> absl::Status { throw std::bad_alloc(); });
   EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
   EXPECT_NE(status.message().find("try again later"), std::string::npos);
 }
