@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/viewer.h"
 
+#include <new>
+
 #include <nlohmann/json.hpp>
 
 #include "admission/request_boundary.h"
