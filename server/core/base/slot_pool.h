@@ -26,7 +26,8 @@ class SlotPool {
   SlotPool(size_t slot_count_max, std::function<void()> on_return)
       : shelf_(std::make_shared<Shelf>(slot_count_max, std::move(on_return))) {}
 
-  // Changes the number of slots. Excess slots are freed when they return.
+  // Changes the number of slots. Excess slots are freed when they return. Throws std::bad_alloc,
+  // and changes nothing, where there is no memory to keep as many.
   void setCountMax(size_t slot_count_max) { shelf_->setCountMax(slot_count_max); }
 
   // Whether take() would succeed. The answer stays true if only this thread takes slots.
@@ -119,14 +120,36 @@ class SlotPool {
     }
 
     void setCountMax(size_t count_max) {
-      std::vector<Free> dropped;  // freed after the lock
-      std::lock_guard lock(mutex);
-      slot_count_max = count_max;
-      while (slot_count > slot_count_max && !free_slots.empty()) {
-        dropped.push_back(std::move(free_slots.back()));
-        free_slots.pop_back();
-        --slot_count;
+      {
+        std::lock_guard lock(mutex);
+        free_slots.reserve(count_max);  // so that slots come back without taking memory
+        slot_count_max = count_max;
       }
+      while (takeExcess()) {
+      }
+    }
+
+    // The next two give the slots back one by one, so that each is freed without the lock, and
+    // without taking memory: there may be none.
+    std::unique_ptr<Slot> takeExcess() {
+      std::lock_guard lock(mutex);
+      if (slot_count <= slot_count_max || free_slots.empty()) return nullptr;
+      return remove(free_slots.end() - 1);
+    }
+
+    std::unique_ptr<Slot> takeUnused(Clock::time_point until) {
+      std::lock_guard lock(mutex);
+      const auto unused =
+          std::ranges::find_if(free_slots, [&](const Free& free) { return free.since <= until; });
+      return unused == free_slots.end() ? nullptr : remove(unused);
+    }
+
+    // Under the lock.
+    std::unique_ptr<Slot> remove(typename std::vector<Free>::iterator free) {
+      std::unique_ptr<Slot> slot = std::move(free->slot);
+      free_slots.erase(free);
+      --slot_count;
+      return slot;
     }
 
     void putBack(std::unique_ptr<Slot> slot) {
@@ -146,14 +169,8 @@ class SlotPool {
 
     uint64_t releaseIdle(std::chrono::nanoseconds unused_for) override {
       const Clock::time_point until = Clock::now() - unused_for;
-      std::vector<Free> dropped;  // freed after the lock
-      std::lock_guard lock(mutex);
-      std::erase_if(free_slots, [&](Free& free) {
-        if (free.since > until) return false;
-        dropped.push_back(std::move(free));
-        --slot_count;
-        return true;
-      });
+      while (takeUnused(until)) {
+      }
       return 0;
     }
 
