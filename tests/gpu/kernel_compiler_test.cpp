@@ -5,8 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
 #include <future>
 #include <mutex>
+#include <new>
 #include <string>
 #include <thread>
 #include <vector>
@@ -44,9 +47,18 @@ class KernelCompilerTest : public testing::Test {
     begun.get_future().wait();
     return release;
   }
+  // Asks again each time it is told, as frames and pictures do, for a kernel that never has memory.
+  void askAgain(KernelCompiler& compiler) {
+    ++asked_count_;
+    MissingKernels kernels;
+    kernels.emplace(&places_[0], [] { throw std::bad_alloc(); });
+    compiler.compile(std::move(kernels), [this, &compiler] { askAgain(compiler); });
+  }
+  int askedCount() const { return asked_count_; }
   static void failTest(const std::exception& error) { ADD_FAILURE() << error.what(); }
 
  private:
+  std::atomic<int> asked_count_ = 0;
   char places_[16] = {};
   size_t next_place_ = 0;
   std::mutex mutex_;
@@ -64,6 +76,25 @@ TEST_F(KernelCompilerTest, compilesWhatSomebodyWaitsForBeforeWhatMayBeNeeded) {
   told.get_future().wait();
   while (compiled().size() < 3) std::this_thread::yield();
   EXPECT_THAT(compiled(), ElementsAre("awaited", "first ahead", "second ahead"));
+}
+
+TEST_F(KernelCompilerTest, pausesBeforeItTriesAKernelAgainThatHadNoMemory) {
+  const auto begun = std::chrono::steady_clock::now();
+  KernelCompiler compiler(1, failTest);
+  askAgain(compiler);
+  while (askedCount() < 3) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  EXPECT_GE(std::chrono::steady_clock::now() - begun, 2 * KernelCompiler::kPause);
+  compiler.drain();
+}
+
+TEST_F(KernelCompilerTest, compilesOthersInThePauseOfOneThatHadNoMemory) {
+  KernelCompiler compiler(1, failTest);
+  askAgain(compiler);
+  std::promise<void> told;
+  compiler.compile(kernelOf("other"), [&] { told.set_value(); });
+  told.get_future().wait();
+  EXPECT_THAT(compiled(), ElementsAre("other"));
+  compiler.drain();
 }
 
 }  // namespace

@@ -26,7 +26,8 @@ KernelCompiler::~KernelCompiler() {
 }
 
 void KernelCompiler::compile(MissingKernels kernels, std::function<void()> then) {
-  const auto order = std::make_shared<Order>(Order{uint32_t(kernels.size()), std::move(then)});
+  const auto order = std::make_shared<Order>(
+      Order{.left_count = uint32_t(kernels.size()), .then = std::move(then)});
   std::lock_guard lock(mutex_);
   for (auto& [place, kernel] : kernels) waiting_.push_back({std::move(kernel), order});
   added_.notify_all();
@@ -42,44 +43,92 @@ void KernelCompiler::drain() {
   std::unique_lock lock(mutex_);
   waiting_.clear();
   ahead_.clear();
+  late_.clear();
   done_.wait(lock, [this] { return begun_count_ == 0; });
 }
 
 void KernelCompiler::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  while (added_.wait(lock, stop, [this] { return !next().empty(); })) {
-    const Kernel kernel = std::move(next().front());
-    next().pop_front();
+  while (waitForWork(lock, stop)) {
     ++begun_count_;
-    lock.unlock();
-    compileOne(kernel);
+    if (const OrderPtr late = takeLate()) {
+      lock.unlock();
+      tell(*late);
+    } else {
+      const Kernel kernel = std::move(next().front());
+      next().pop_front();
+      lock.unlock();
+      compileOne(kernel);
+    }
     lock.lock();
     --begun_count_;
     done_.notify_all();
   }
 }
 
-// Whoever waits asks again for a kernel for which there was no memory.
-void KernelCompiler::compileUnlessOutOfMemory(const Kernel& kernel) {
+// False once the compiler ends.
+bool KernelCompiler::waitForWork(std::unique_lock<std::mutex>& lock, const std::stop_token& stop) {
+  while (!stop.stop_requested()) {
+    const auto changes = [this, late_count = late_.size()] {
+      return !next().empty() || late_.size() != late_count;
+    };
+    if (!next().empty()) return true;
+    if (late_.empty()) {
+      added_.wait(lock, stop, changes);
+    } else if (Clock::now() >= late_.front().due) {
+      return true;
+    } else {
+      added_.wait_until(lock, stop, late_.front().due, changes);
+    }
+  }
+  return false;
+}
+
+// The order that has waited long enough, if there is one.
+KernelCompiler::OrderPtr KernelCompiler::takeLate() {
+  if (late_.empty() || Clock::now() < late_.front().due) return nullptr;
+  OrderPtr order = std::move(late_.front().order);
+  late_.pop_front();
+  return order;
+}
+
+// False: there was no memory. Whoever waits asks again.
+bool KernelCompiler::compileUnlessOutOfMemory(const Kernel& kernel) {
   try {
     before_each_();
     kernel.compile();
+    return true;
   } catch (const std::exception& error) {
     if (!isOutOfDeviceMemory(error)) throw;
     log(LogLevel::kWarning, "a kernel is not compiled: ", deviceErrorText(error));
+    return false;
   }
 }
 
 void KernelCompiler::compileOne(const Kernel& kernel) {
   try {
-    compileUnlessOutOfMemory(kernel);
+    const bool is_compiled = compileUnlessOutOfMemory(kernel);
     if (kernel.order == nullptr) return;
-    bool is_last = false;
     {
       std::lock_guard lock(mutex_);
-      is_last = --kernel.order->left_count == 0;
+      Order& order = *kernel.order;
+      if (!is_compiled) order.lacks_kernels = true;
+      if (--order.left_count > 0) return;
+      if (order.lacks_kernels) {
+        late_.push_back({kernel.order, Clock::now() + kPause});
+        added_.notify_all();
+        return;
+      }
     }
-    if (is_last) kernel.order->then();
+    kernel.order->then();
+  } catch (const std::exception& error) {
+    on_failure_(error);
+  }
+}
+
+void KernelCompiler::tell(const Order& order) {
+  try {
+    order.then();
   } catch (const std::exception& error) {
     on_failure_(error);
   }

@@ -2,6 +2,7 @@
 // Compiles kernels on threads of its own, for frames and pictures that wait for them.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -26,28 +27,45 @@ class KernelCompiler {
   // The same as drain().
   ~KernelCompiler();
 
-  // `then` is called on one of its threads once all of these are compiled.
+  // `then` is called on one of its threads once all of these are compiled, or have been tried.
+  // Where there was no device memory for some, that is kPause later: whoever asks again then gives
+  // others time to leave some.
   void compile(MissingKernels kernels, std::function<void()> then);
   // Compiles these while nobody waits for others, in the order of the calls.
   void compileAhead(MissingKernels kernels);
   // Forgets kernels that have not begun, and waits for the others.
   void drain();
 
+  static constexpr std::chrono::milliseconds kPause{250};
+
  private:
+  using Clock = std::chrono::steady_clock;
+
   // The kernels that one caller waits for.
   struct Order {
-    uint32_t left_count;
+    uint32_t left_count = 0;
+    bool lacks_kernels = false;  // there was no memory for some
     std::function<void()> then;
   };
+  using OrderPtr = std::shared_ptr<Order>;
   struct Kernel {
     std::function<void()> compile;
-    std::shared_ptr<Order> order;  // nullptr = nobody waits
+    OrderPtr order;  // nullptr = nobody waits
+  };
+  // An order that lacks kernels, and whose caller is told later.
+  struct Late {
+    OrderPtr order;
+    Clock::time_point due;
   };
 
   void run(const std::stop_token& stop);
+  // These three are called under the lock.
+  bool waitForWork(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
+  OrderPtr takeLate();
   std::deque<Kernel>& next() { return waiting_.empty() ? ahead_ : waiting_; }
-  void compileUnlessOutOfMemory(const Kernel& kernel);
+  bool compileUnlessOutOfMemory(const Kernel& kernel);
   void compileOne(const Kernel& kernel);
+  void tell(const Order& order);
 
   const std::function<void(const std::exception& error)> on_failure_;
   const std::function<void()> before_each_;
@@ -56,6 +74,7 @@ class KernelCompiler {
   std::condition_variable done_;
   std::deque<Kernel> waiting_;
   std::deque<Kernel> ahead_;
+  std::deque<Late> late_;  // the one that is due first, first
   uint32_t begun_count_ = 0;
   std::vector<std::jthread> threads_;  // last: they use all of the above
 };
