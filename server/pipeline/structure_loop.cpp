@@ -8,7 +8,7 @@
 #include "base/log.h"
 #include "base/str_cat.h"
 #include "base/thread_name.h"
-#include "base/thread_time.h"
+#include "pipeline/build_charge.h"
 #include "pipeline/frame_px.h"
 #include "pipeline/stream_retimer.h"
 #include "pipeline/within_memory.h"
@@ -166,25 +166,13 @@ bool StructureLoop::isReadyFor(const Frame& frame, const PipelineStreamPtr& stre
   return is_ready;
 }
 
-PreparationEvents StructureLoop::eventsFor(const Claim& claim, const std::stop_token& stop) const {
-  return {.on_piece =
-              [this, payers = claim.payers](const DoneWork& work) {
-                links_.pipeline.metrics.observePiece(
-                    EngineWork::kBuild, payers,
-                    {.predicted_ns = work.predicted_ns, .measured_ns = work.measured_ns});
-              },
-          .is_given_up = [stop] { return stop.stop_requested(); }};
-}
-
 void StructureLoop::make(const FormOrder& order, const std::stop_token& stop) {
-  const int64_t predicted_ns = queue_.predictNs(order);
-  links_.shares.begin(order.claim, predicted_ns);
-  const int64_t begun_ns = wallTimeNs();
+  BuildCharge charge(links_.shares, links_.pipeline.metrics, order.claim, queue_.predictNs(order));
   absl::Status status;
   try {
     status = withinMemory([&] {
       order.structure->forms->prepare(order.engine, links_.pipeline.clock,
-                                      eventsFor(order.claim, stop));
+                                      charge.events([&] { return stop.stop_requested(); }));
     });
   } catch (const PreparationGivenUp&) {
     return;
@@ -193,9 +181,7 @@ void StructureLoop::make(const FormOrder& order, const std::stop_token& stop) {
     status =
         absl::ResourceExhaustedError(strCat("this display cannot be rendered: ", status.message()));
   }
-  const int64_t measured_ns = wallTimeNs() - begun_ns;
-  queue_.noteMade(order, measured_ns);
-  links_.shares.finish(order.claim, predicted_ns, measured_ns);
+  queue_.noteMade(order, charge.settle());
   order.then(status);
 }
 
@@ -226,26 +212,20 @@ std::shared_ptr<FrameForms> StructureLoop::takeSlot(PipelineStream& stream,
 
 void StructureLoop::build(PipelineStream& stream, OfferedFrame offered,
                           std::shared_ptr<FrameForms> slot, const std::stop_token& stop) {
-  const Claim claim = stream.claim();
   const uint64_t px_count = pxOf(*offered.frame);
-  const int64_t predicted_ns = stream.px_cost.predictNs(px_count);
-  links_.shares.begin(claim, predicted_ns);
-  const int64_t begun_ns = wallTimeNs();
+  BuildCharge charge(links_.shares, links_.pipeline.metrics, stream.claim(),
+                     stream.px_cost.predictNs(px_count));
   auto structure = std::make_shared<ResidentStructure>(describe(*offered.frame));
   structure->stream = stream.name;
   structure->serial = ++last_serial_;
   try {
-    links_.builder.build(*offered.frame, std::move(slot), eventsFor(claim, stop), *structure);
+    links_.builder.build(*offered.frame, std::move(slot),
+                         charge.events([&] { return stop.stop_requested(); }), *structure);
   } catch (const PreparationGivenUp& error) {
     offered.ticket->noteRefused(error.what());
     return;
-  } catch (...) {
-    links_.shares.finish(claim, predicted_ns, wallTimeNs() - begun_ns);
-    throw;
   }
-  const int64_t measured_ns = wallTimeNs() - begun_ns;
-  stream.px_cost.note(px_count, measured_ns);
-  links_.shares.finish(claim, predicted_ns, measured_ns);
+  stream.px_cost.note(px_count, charge.settle());
   stream.turn.noteBuilt(demandOf(stream), links_.pipeline.clock.nowNs());
   takeDefaults(stream, offered, *structure);
   if (movesByItself(*offered.frame)) {

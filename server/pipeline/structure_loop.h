@@ -87,7 +87,6 @@ class StructureLoop {
   std::shared_ptr<FrameForms> takeSlot(PipelineStream& stream, const FramePtr& frame) const;
   void build(PipelineStream& stream, OfferedFrame offered, std::shared_ptr<FrameForms> slot,
              const std::stop_token& stop);
-  PreparationEvents eventsFor(const Claim& claim, const std::stop_token& stop) const;
   static void takeDefaults(PipelineStream& stream, const OfferedFrame& offered,
                            ResidentStructure& structure);
   void count(const ResidentStructure& structure, const Frame& frame) const;

@@ -5,8 +5,14 @@
 #include <utility>
 
 #include "base/thread_name.h"
+#include "base/thread_time.h"
 
 namespace viewloom {
+namespace {
+
+thread_local int64_t help_of_thread_ns = 0;
+
+}  // namespace
 
 WorkerPool::WorkerPool(uint32_t worker_count) {
   const uint32_t wanted =
@@ -35,6 +41,10 @@ void WorkerPool::forEach(uint32_t count, const Piece& piece) {
     const Turn turn(*this);
     first = takeTurn(first, count, piece);
   }
+}
+
+int64_t WorkerPool::helpNs() {
+  return help_of_thread_ns;
 }
 
 void WorkerPool::waitForTurn() {
@@ -69,6 +79,7 @@ uint32_t WorkerPool::takeTurn(uint32_t first, uint32_t count, const Piece& piece
   takePieces(0);
   std::unique_lock lock(mutex_);
   ended_.wait(lock, [this] { return busy_count_ == 0; });
+  help_of_thread_ns += std::exchange(help_ns_, 0);
   if (const std::exception_ptr failure = std::exchange(failure_, nullptr)) {
     std::rethrow_exception(failure);
   }
@@ -99,8 +110,11 @@ void WorkerPool::run(const std::stop_token& stop, uint32_t worker) {
   while (begun_.wait(lock, stop, [&] { return task_number_ != last_task; })) {
     last_task = task_number_;
     lock.unlock();
+    const int64_t begun_ns = threadTimeNs();
     takePieces(worker);
+    const int64_t worked_ns = threadTimeNs() - begun_ns;
     lock.lock();
+    help_ns_ += worked_ns;
     if (--busy_count_ == 0) ended_.notify_one();
   }
 }

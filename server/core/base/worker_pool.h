@@ -33,6 +33,11 @@ class WorkerPool {
   using Piece = std::function<void(uint32_t index, uint32_t worker)>;
   void forEach(uint32_t count, const Piece& piece);
 
+  // CPU time, ns, that workers have spent on pieces of the calling thread so far, in any pool.
+  // Together with that thread's own (threadTimeNs) it is the cost of its tasks, however long they
+  // have waited for their turns.
+  static int64_t helpNs();
+
  private:
   static constexpr std::chrono::milliseconds kTurn{10};
 
@@ -58,6 +63,7 @@ class WorkerPool {
   uint32_t count_ = 0;
   uint64_t task_number_ = 0;
   uint32_t busy_count_ = 0;
+  int64_t help_ns_ = 0;  // of this turn, by workers that are done
   std::exception_ptr failure_;
   std::atomic<uint32_t> next_ = 0;
   std::vector<std::jthread> threads_;  // last: they use all of the above

@@ -12,6 +12,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/thread_time.h"
+
 namespace viewloom::worker_pool_test {
 namespace {
 
@@ -34,6 +36,29 @@ TEST(WorkerPool, givesAWorkerOnePieceAtATime) {
   std::vector<uint64_t> sums(pool.workerCount());
   pool.forEach(kPieces, [&](uint32_t index, uint32_t worker) { sums.at(worker) += index; });
   EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), uint64_t{0}), kPieces * (kPieces - 1) / 2);
+}
+
+// Keeps the core of the calling thread for so long.
+void work(int64_t time_ns) {
+  const int64_t end_ns = threadTimeNs() + time_ns;
+  while (threadTimeNs() < end_ns) {
+  }
+}
+
+TEST(WorkerPool, tellsWhatWorkersHaveSpentOnTasksOfAThread) {
+  constexpr uint32_t kPieces = 40;
+  constexpr int64_t kPiece_ns = 1'000'000;
+  WorkerPool pool(3);
+  const auto costOf = [&](int64_t piece_ns) {
+    const int64_t begun_ns = threadTimeNs() + WorkerPool::helpNs();
+    pool.forEach(kPieces, [&](uint32_t, uint32_t) { work(piece_ns); });
+    return threadTimeNs() + WorkerPool::helpNs() - begun_ns;
+  };
+  std::jthread other([&] {
+    for (int task = 0; task < 3; ++task) costOf(kPiece_ns);
+  });
+  EXPECT_GE(costOf(kPiece_ns), kPieces * kPiece_ns) << "workers have helped";
+  EXPECT_LT(costOf(0), kPieces * kPiece_ns / 2) << "of other threads' pieces nothing counts";
 }
 
 TEST(WorkerPool, returnsWhenAllPiecesHave) {
