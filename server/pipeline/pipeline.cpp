@@ -74,8 +74,7 @@ struct Pipeline::Loops {
              .takes_unasked =
                  [this](const PipelineStream& stream) { return structures.takesUnasked(stream); }}),
         frames(links),
-        retimes(links.metrics,
-                [this](AtlasJob job, const DisplaySpec& spec) { retime(std::move(job), spec); }),
+        retimes(links.metrics, std::bind_front(&Loops::retime, this)),
         ticks(links, [this](const AtlasJob& job,
                             const ActiveDisplayPtr& display) { return offerTick(job, display); }),
         structures({links, streams, frames, board, shares, structure_bell},
@@ -99,7 +98,7 @@ struct Pipeline::Loops {
   bool offerTick(const AtlasJob& job, const ActiveDisplayPtr& display);
   bool offerTrace(AtlasJob job, const DisplaySpec& spec);
   // Makes what the tick shows, unless there is no room, and has it traced.
-  void retime(AtlasJob job, const DisplaySpec& spec);
+  void retime(AtlasJob job, const DisplaySpec& spec, const std::stop_token& stop);
   // Wakes those whom it concerns. False: there was nothing new.
   bool offer(AtlasJob job);
   void noteComplete(const AtlasRun& run);
@@ -181,11 +180,11 @@ bool Pipeline::Loops::offerTick(const AtlasJob& job, const ActiveDisplayPtr& dis
   return !retimes.isBusy(job) && offerTrace(job, display->spec);
 }
 
-void Pipeline::Loops::retime(AtlasJob job, const DisplaySpec& spec) {
+void Pipeline::Loops::retime(AtlasJob job, const DisplaySpec& spec, const std::stop_token& stop) {
   try {
     bool is_offered = false;
-    const absl::Status status =
-        withinMemory([&] { is_offered = showAsOfTick(job) && offerTrace(job, spec); });
+    const absl::Status status = withinMemory(
+        [&] { is_offered = showAsOfTick(job, shares, stop) && offerTrace(job, spec); });
     if (!status.ok()) log(LogLevel::kWarning, "a tick is left out: ", status.message());
     if (!is_offered) ticks.giveBack(std::move(job));
   } catch (const std::exception& error) {

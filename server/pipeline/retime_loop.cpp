@@ -13,7 +13,7 @@ RetimeLoop::RetimeLoop(const Metrics& metrics, Serve serve)
 void RetimeLoop::stop() {
   {
     std::lock_guard lock(mutex_);
-    is_stopped_ = true;  // no thread is made any more
+    stop_.request_stop();  // no thread is made any more
   }
   changed_.notify_all();
   threads_.clear();
@@ -26,7 +26,7 @@ bool RetimeLoop::offer(AtlasJob job, const ActiveDisplayPtr& display) {
   RetimeSchedule::Offered offered;  // let go after the lock: a ticket may report
   {
     std::lock_guard lock(mutex_);
-    if (is_stopped_) return false;
+    if (stop_.stop_requested()) return false;
     offered = schedule_.offer(std::move(job), display);
     if (!offered.is_taken) return false;
     if (offered.replaced) metrics_.output_ticks_skipped.add();
@@ -49,7 +49,7 @@ bool RetimeLoop::isBusy(const AtlasJob& job) {
 void RetimeLoop::run() {
   while (std::optional<RetimeSchedule::Tick> tick = take()) {
     const std::string stream = tick->job.structure->stream;
-    serve_(std::move(tick->job), tick->display->spec);
+    serve_(std::move(tick->job), tick->display->spec, stop_.get_token());
     finish(stream);
   }
 }
@@ -59,8 +59,8 @@ std::optional<RetimeSchedule::Tick> RetimeLoop::take() {
   std::unique_lock lock(mutex_);
   std::optional<RetimeSchedule::Tick> tick;
   changed_.wait(lock, [&] {
-    if (!is_stopped_) tick = schedule_.take();
-    return is_stopped_ || tick;
+    if (!stop_.stop_requested()) tick = schedule_.take();
+    return stop_.stop_requested() || tick;
   });
   return tick;
 }

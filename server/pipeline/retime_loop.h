@@ -7,6 +7,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
@@ -22,9 +23,10 @@ namespace viewloom {
 // Thread-safety: offer() and isBusy() from any thread; stop() from one thread, once.
 class RetimeLoop {
  public:
-  // Makes what the job's tick shows and hands it on. Called on a thread of the loop, for one job of
-  // a stream at a time. Must not throw.
-  using Serve = std::function<void(AtlasJob job, const DisplaySpec& spec)>;
+  // Makes what the job's tick shows and hands it on, or gives it up once a stop is requested.
+  // Called on a thread of the loop, for one job of a stream at a time. Must not throw.
+  using Serve =
+      std::function<void(AtlasJob job, const DisplaySpec& spec, const std::stop_token& stop)>;
 
   RetimeLoop(const Metrics& metrics, Serve serve);
   ~RetimeLoop() { stop(); }
@@ -34,7 +36,7 @@ class RetimeLoop {
   bool offer(AtlasJob job, const ActiveDisplayPtr& display);
   // A tick of the picture waits or is being served.
   bool isBusy(const AtlasJob& job);
-  // Finishes the ticks that are being served, and forgets the others.
+  // Waits for the ticks that are being served, which are to be given up, and forgets the others.
   void stop();
 
  private:
@@ -47,7 +49,7 @@ class RetimeLoop {
   std::mutex mutex_;  // guards what follows
   std::condition_variable changed_;
   RetimeSchedule schedule_;
-  bool is_stopped_ = false;
+  std::stop_source stop_;              // for all threads at once
   std::vector<std::jthread> threads_;  // last: they use all of the above
 };
 

@@ -6,9 +6,32 @@
 
 #include "admission/frame_price.h"
 #include "base/log.h"
+#include "pipeline/build_charge.h"
+#include "pipeline/frame_px.h"
 #include "schedule/retime_schedule.h"
 
 namespace viewloom {
+namespace {
+
+// False while there is no room.
+bool carryStructures(AtlasJob& job, const RetimeOrder& order) {
+  using enum StreamRetimer::Which;
+  const RetimeDates dates = retimeDatesOf(job);
+  const Guesses guesses = job.before ? Guesses::kGiveWay : Guesses::kStand;
+  if (dates.before_ns) {
+    ResidentPtr before =
+        job.before->retimer->carried(job.before, *dates.before_ns, kBefore, guesses, order);
+    if (!before) return false;
+    job.before = std::move(before);
+  }
+  ResidentPtr newest =
+      job.structure->retimer->carried(job.structure, dates.newest_ns, kNewest, guesses, order);
+  if (!newest) return false;
+  job.structure = std::move(newest);
+  return true;
+}
+
+}  // namespace
 
 StreamRetimer::StreamRetimer(const PipelineLinks& links, const FrameBuilder& builder)
     : links_(links),
@@ -20,7 +43,7 @@ StreamRetimer::StreamRetimer(const PipelineLinks& links, const FrameBuilder& bui
 }
 
 ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried_ns, Which which,
-                                   Guesses guesses) {
+                                   Guesses guesses, const RetimeOrder& order) {
   if (carried_ns == 0) return structure;
   Carried& last = carried_[size_t(which)];
   const bool is_known = last.structure && last.serial == structure->serial &&
@@ -29,7 +52,7 @@ ResidentPtr StreamRetimer::carried(const ResidentPtr& structure, int64_t carried
   last.structure = nullptr;  // its slot may serve again
   if (!makeRoom(*structure->moving_frame, last)) return structure;
   try {
-    last.structure = build(*structure, carried_ns, guesses, last.retimer);
+    last.structure = build(*structure, carried_ns, guesses, last.retimer, order);
   } catch (const EngineOutOfMemory& error) {
     log(LogLevel::kWarning, "stream ", structure->stream,
         ": shown without pictures between its frames: ", error.what());
@@ -55,16 +78,22 @@ bool StreamRetimer::makeRoom(const Frame& frame, Carried& carried) const {
 }
 
 ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t carried_ns,
-                                 Guesses guesses, FrameRetimer& retimer) {
+                                 Guesses guesses, FrameRetimer& retimer, const RetimeOrder& order) {
+  const uint64_t px_count = pxOf(*structure.moving_frame);
+  BuildCharge charge(order.shares, links_.metrics, order.claim, px_cost_.predictNs(px_count));
   const int64_t started_ns = links_.clock.nowNs();
-  const FramePtr frame = retimer.retime(structure.moving_frame, 1e-9 * double(carried_ns), guesses);
+  const FramePtr frame =
+      retimer.retime(structure.moving_frame, 1e-9 * double(carried_ns), guesses, [&order] {
+        if (order.is_given_up()) throw PreparationGivenUp();
+      });
   const int64_t retimed_ns = links_.clock.nowNs();
   std::shared_ptr<FrameForms> slot = builder_.takeSlot(slots_, preparers_, frame);
   if (!slot) return nullptr;
   auto carried = std::make_shared<ResidentStructure>(structure);
   carried->moving_frame = nullptr;
   carried->retimer = nullptr;
-  builder_.build(*frame, std::move(slot), {}, *carried);
+  builder_.build(*frame, std::move(slot), charge.events(order.is_given_up), *carried);
+  px_cost_.note(px_count, charge.settle());
   carried->retime_ns = retimed_ns - started_ns;
   // Bad samples were counted when the frame came.
   carried->stats.bad_samples_count = structure.stats.bad_samples_count;
@@ -79,20 +108,15 @@ ResidentPtr StreamRetimer::build(const ResidentStructure& structure, int64_t car
   return carried;
 }
 
-bool showAsOfTick(AtlasJob& job) {
-  const RetimeDates dates = retimeDatesOf(job);
-  const Guesses guesses = job.before ? Guesses::kGiveWay : Guesses::kStand;
-  if (dates.before_ns) {
-    ResidentPtr before = job.before->retimer->carried(job.before, *dates.before_ns,
-                                                      StreamRetimer::Which::kBefore, guesses);
-    if (!before) return false;
-    job.before = std::move(before);
+bool showAsOfTick(AtlasJob& job, FairShares& shares, const std::stop_token& stop) {
+  const RetimeOrder order{.shares = shares, .claim = claimOf(job), .is_given_up = [&stop] {
+                            return stop.stop_requested();
+                          }};
+  try {
+    return carryStructures(job, order);
+  } catch (const PreparationGivenUp&) {
+    return false;
   }
-  ResidentPtr newest = job.structure->retimer->carried(job.structure, dates.newest_ns,
-                                                       StreamRetimer::Which::kNewest, guesses);
-  if (!newest) return false;
-  job.structure = std::move(newest);
-  return true;
 }
 
 }  // namespace viewloom

@@ -45,11 +45,15 @@ void describeRetimed(SourceFormat& source) {
 
 }  // namespace
 
-FramePtr FrameRetimer::retime(const FramePtr& frame, double seconds, Guesses guesses) {
+FramePtr FrameRetimer::retime(const FramePtr& frame, double seconds, Guesses guesses,
+                              const BetweenSteps& between_steps) {
   if (frame != prepared_) {
+    prepared_ = nullptr;  // until all sources are those of the frame
     sources_.resize(frame->sources.size());
     for (size_t i = 0; i < sources_.size(); ++i) {
-      if (moves(frame->sources[i])) sources_[i].prepare(sourceAlone(*frame, i), workers_);
+      if (!moves(frame->sources[i])) continue;
+      sources_[i].prepare(sourceAlone(*frame, i), workers_);
+      between_steps();
     }
     prepared_ = frame;
   }
@@ -57,7 +61,7 @@ FramePtr FrameRetimer::retime(const FramePtr& frame, double seconds, Guesses gue
   for (size_t i = 0; i < sources_.size(); ++i) {
     if (!moves(frame->sources[i])) continue;
     describeRetimed(retimed->format.sources[i]);
-    retimed->sources[i] = sources_[i].retime(seconds, guesses, pool_, workers_);
+    retimed->sources[i] = sources_[i].retime(seconds, guesses, pool_, workers_, between_steps);
   }
   return retimed;
 }

@@ -19,7 +19,9 @@ class FrameRetimer {
 
   // The frame as an upload takes it, seen by its own cameras, with everything that moves where it
   // is `seconds` later. Of sources in which nothing moves it shares the planes.
-  FramePtr retime(const FramePtr& frame, double seconds, Guesses guesses = Guesses::kStand);
+  FramePtr retime(
+      const FramePtr& frame, double seconds, Guesses guesses = Guesses::kStand,
+      const BetweenSteps& between_steps = [] {});
 
  private:
   // Planes of two frames that are traced while a third is made: depth, colour and how they mirror,

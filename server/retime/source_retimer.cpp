@@ -17,8 +17,10 @@ bool mirrors(const std::vector<LayerPlanes>& layers) {
 }  // namespace
 
 std::vector<LayerPlanes> SourceRetimer::retime(double seconds, Guesses guesses, BytePool& pool,
-                                               WorkerPool& workers) {
+                                               WorkerPool& workers,
+                                               const BetweenSteps& between_steps) {
   surfaces_.move(seconds, workers);
+  between_steps();
   edges_.find(surfaces_, workers);
   const SizePx size_px = surfaces_.sizePx();
   front_samples_.resize(size_px.area());
@@ -27,11 +29,13 @@ std::vector<LayerPlanes> SourceRetimer::retime(double seconds, Guesses guesses, 
   std::vector<LayerPlanes> layers;
   std::vector<FreshPlanes> written;
   for (uint32_t layer = 0; layer < surfaces_.layerCount(); ++layer) {
+    between_steps();
     grid_.draw(surfaces_, layer == 0 ? nullptr : written.back().inv_z, workers);
     FreshPlanes to;
     layers.push_back(takeLayer(pool, to));
     if (layer == 0) to.samples = front_samples_.data();
     written.push_back(to);
+    between_steps();
     const FreshLayer fresh(surfaces_, edges_, layer, to);
     forEachRow(size_px, workers, [&](uint32_t y, uint32_t worker) {
       grid_.findRow(y, rows_[worker].blends);
@@ -39,6 +43,7 @@ std::vector<LayerPlanes> SourceRetimer::retime(double seconds, Guesses guesses, 
       if (layer == 0) fresh.fillRow(y, guesses);
     });
   }
+  between_steps();
   EdgeLight::Drawn drawn{
       .inv_z = written[0].inv_z, .sample = front_samples_.data(), .color = written[0].color};
   if (written.size() > 1) {

@@ -2,6 +2,7 @@
 // One source of a frame as it looks some time later.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "base/byte_pool.h"
@@ -14,6 +15,10 @@
 
 namespace viewloom {
 
+// Called by the thread that retimes, between two steps, each of which goes through all pixels of a
+// layer or a source. It may throw: then nothing more is made.
+using BetweenSteps = std::function<void()>;
+
 // Keeps its memory from frame to frame. Thread-safety: none; it shares its work among threads.
 class SourceRetimer {
  public:
@@ -25,7 +30,7 @@ class SourceRetimer {
   // Its layers so many seconds later (earlier, if negative): depth is DISPARITY in binary32, and
   // where there is no surface abi::kNoSurface; colour as it was encoded. Every column is sorted.
   std::vector<LayerPlanes> retime(double seconds, Guesses guesses, BytePool& pool,
-                                  WorkerPool& workers);
+                                  WorkerPool& workers, const BetweenSteps& between_steps);
 
  private:
   LayerPlanes takeLayer(BytePool& pool, FreshPlanes& to) const;

@@ -68,7 +68,11 @@ class RetimeLoopTest : public testing::Test {
   std::vector<std::string> served_;
   std::vector<uint64_t> reported_;
   RetimeLoop loop_{
-      metrics_, [this](const AtlasJob& job, const DisplaySpec&) {
+      metrics_, [this](const AtlasJob& job, const DisplaySpec&, const std::stop_token& stop) {
+        if (job.picture_key == "endless") {
+          is_held_.release();
+          while (!stop.stop_requested()) std::this_thread::yield();
+        }
         if (job.picture_key == "held") {
           is_held_.release();
           may_go_on_.acquire();
@@ -172,6 +176,15 @@ TEST_F(RetimeLoopTest, finishesWhatIsBeingServedWhenItStopsAndForgetsTheRest) {
   EXPECT_THAT(reported(), ElementsAre(1));
 }
 
+TEST_F(RetimeLoopTest, tellsAllThatAreBeingServedToGiveUpWhenItStops) {
+  for (const char* stream : {"first", "second"}) {
+    ASSERT_TRUE(offer(tickOf("endless", someStructure(stream), 1)));
+    is_held_.acquire();
+  }
+  loop_.stop();
+  EXPECT_THAT(served(), ElementsAre("endless 1", "endless 1"));
+}
+
 // Streams and pictures from many threads: of a stream one at a time, of a picture ever newer ones,
 // and each tick is served, or counted, or refused.
 TEST(RetimeLoop, servesManyStreamsFromManyThreads) {
@@ -182,7 +195,7 @@ TEST(RetimeLoop, servesManyStreamsFromManyThreads) {
   std::atomic<int> served_count = 0, refused_count = 0;
   const ActiveDisplayPtr display = std::make_shared<ActiveDisplay>();
   {
-    RetimeLoop loop(metrics, [&](const AtlasJob& job, const DisplaySpec&) {
+    RetimeLoop loop(metrics, [&](const AtlasJob& job, const DisplaySpec&, const std::stop_token&) {
       const auto stream = size_t(job.structure->stream.front() - '0');
       const auto picture = size_t(job.picture_key.back() - '0');
       EXPECT_EQ(at_once[stream]++, 0);

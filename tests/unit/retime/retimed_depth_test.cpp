@@ -160,5 +160,27 @@ TEST(RetimedDepth, isThatOfTheFrameAlone) {
   expectSamePlanes(*wanted, *used.retime(frame, kTime_s));
 }
 
+TEST(RetimedDepth, isTheSameAfterAnotherFrameWasGivenUp) {
+  WorkerPool workers(2);
+  const FramePtr frame = noisyFrame(), other = movingFrame({waveAt, waveAt}, 10);
+  const FramePtr wanted = FrameRetimer(workers).retime(frame, kTime_s);
+  struct GivenUp {};
+  int step_count = 0;
+  for (bool is_given_up = true; is_given_up; ++step_count) {
+    FrameRetimer used(workers);
+    used.retime(frame, -kTime_s);
+    int left = step_count;
+    try {
+      used.retime(other, kTime_s, Guesses::kStand, [&left] {
+        if (left-- == 0) throw GivenUp();
+      });
+      is_given_up = false;
+    } catch (const GivenUp&) {
+    }
+    expectSamePlanes(*wanted, *used.retime(frame, kTime_s));
+  }
+  EXPECT_GT(step_count, 6) << "a large frame is given up soon";
+}
+
 }  // namespace
 }  // namespace viewloom::test::retimed_depth_test
