@@ -7,7 +7,9 @@
 #include "display/named_display.h"
 #include "display/source_advice.h"
 #include "messages/display_from_proto.h"
+#include "messages/wire_message.h"
 #include "rpc/call_access.h"
+#include "rpc/display_request.h"
 #include "rpc/layout_to_proto.h"
 #include "rpc/report_to_proto.h"
 #include "rpc/status_to_grpc.h"
@@ -85,8 +87,9 @@ v1::StreamEntry entryToProto(const StreamEntry& entry, uint32_t subscriber_count
   return proto;
 }
 
-absl::StatusOr<SourceAdvice> adviceOf(const v1::AdviseSourceRequest& request,
-                                      const AtlasLimits& limits) {
+absl::StatusOr<SourceAdvice> adviceOf(grpc::ByteBuffer bytes, const AtlasLimits& limits) {
+  v1::AdviseSourceRequest request;
+  VIEWLOOM_RETURN_IF_ERROR(parseMessage(bytes, request, kDisplayRequestBytesMax));
   const absl::StatusOr<DisplaySpec> spec = displayFromProto(request.display());
   const absl::Status status = spec.ok() ? validateAtlasLimits(*spec, limits) : spec.status();
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(status, "display"));
@@ -104,13 +107,17 @@ v1::AdviseSourceResponse adviceToProto(const SourceAdvice& advice) {
   return proto;
 }
 
-// Lets `fill` answer a caller who may ask; it returns the status of the call.
-template <typename Fill>
+// Lets `fill` write the answer for a caller who may ask; it returns the status of the call.
+template <typename Response, typename Fill>
 grpc::ServerUnaryReactor* answer(AccessControl& access, grpc::CallbackServerContext* context,
-                                 std::string_view rpc, const Fill& fill) {
+                                 std::string_view rpc, grpc::ByteBuffer* bytes, const Fill& fill) {
   const absl::Status status = unlessThrown([&]() -> absl::Status {
     const absl::StatusOr<Caller> caller = admitCall(access, *context, rpc);
-    return caller.ok() ? fill(*caller) : caller.status();
+    VIEWLOOM_RETURN_IF_ERROR(caller.status());
+    Response response;
+    const absl::Status filled = fill(*caller, response);
+    if (filled.ok()) *bytes = bytesFromMessage(response);
+    return filled;
   });
   grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
   reactor->Finish(statusToGrpc(status));
@@ -128,63 +135,68 @@ CatalogService::CatalogService(const StreamDirectory& directory, const Broadcast
       info_(infoToProto(description)),
       presets_(presetsToProto()) {}
 
-grpc::ServerUnaryReactor* CatalogService::ListStreams(grpc::CallbackServerContext* context,
-                                                      const v1::ListStreamsRequest*,
-                                                      v1::ListStreamsResponse* response) {
-  return answer(access_, context, kListStreams, [&](const Caller& caller) {
-    for (const StreamEntry& entry : directory_.list()) {
-      if (!caller.sees(entry.name)) continue;
-      *response->add_streams() = entryToProto(entry, broadcaster_.subscriberCount(entry.name));
-    }
-    return absl::OkStatus();
-  });
+grpc::ServerUnaryReactor* CatalogService::ListStreams(Context* context, const Bytes*,
+                                                      Bytes* bytes) {
+  using Response = v1::ListStreamsResponse;
+  return answer<Response>(
+      access_, context, kListStreams, bytes, [&](const Caller& caller, Response& response) {
+        for (const StreamEntry& entry : directory_.list()) {
+          if (!caller.sees(entry.name)) continue;
+          *response.add_streams() = entryToProto(entry, broadcaster_.subscriberCount(entry.name));
+        }
+        return absl::OkStatus();
+      });
 }
 
-grpc::ServerUnaryReactor* CatalogService::ListDisplays(grpc::CallbackServerContext* context,
-                                                       const v1::ListDisplaysRequest*,
-                                                       v1::ListDisplaysResponse* response) {
-  return answer(access_, context, kListDisplays, [&](const Caller& caller) {
-    for (const ActiveDisplayPtr& display : broadcaster_.displays("")) {
-      if (!caller.sees(display->stream)) continue;
-      v1::DisplayEntry& entry = *response->add_displays();
-      entry.set_id(display->id);
-      entry.set_stream(display->stream);
-      if (const auto layout = broadcaster_.layout(display->id)) {
-        *entry.mutable_layout() = layoutToProto(*layout, display->encoding);
-      }
-      entry.set_subscriber_count(display->subscriber_count);
-      entry.set_atlas_count(broadcaster_.atlasCount(display->id));
-    }
-    return absl::OkStatus();
-  });
+grpc::ServerUnaryReactor* CatalogService::ListDisplays(Context* context, const Bytes*,
+                                                       Bytes* bytes) {
+  using Response = v1::ListDisplaysResponse;
+  return answer<Response>(access_, context, kListDisplays, bytes,
+                          [&](const Caller& caller, Response& response) {
+                            for (const ActiveDisplayPtr& display : broadcaster_.displays("")) {
+                              if (!caller.sees(display->stream)) continue;
+                              v1::DisplayEntry& entry = *response.add_displays();
+                              entry.set_id(display->id);
+                              entry.set_stream(display->stream);
+                              if (const auto layout = broadcaster_.layout(display->id)) {
+                                *entry.mutable_layout() = layoutToProto(*layout, display->encoding);
+                              }
+                              entry.set_subscriber_count(display->subscriber_count);
+                              entry.set_atlas_count(broadcaster_.atlasCount(display->id));
+                            }
+                            return absl::OkStatus();
+                          });
 }
 
-grpc::ServerUnaryReactor* CatalogService::ListPresets(grpc::CallbackServerContext* context,
-                                                      const v1::ListPresetsRequest*,
-                                                      v1::ListPresetsResponse* response) {
-  return answer(access_, context, kListPresets, [&](const Caller&) {
-    *response = presets_;
-    return absl::OkStatus();
-  });
+grpc::ServerUnaryReactor* CatalogService::ListPresets(Context* context, const Bytes*,
+                                                      Bytes* bytes) {
+  using Response = v1::ListPresetsResponse;
+  return answer<Response>(access_, context, kListPresets, bytes,
+                          [&](const Caller&, Response& response) {
+                            response = presets_;
+                            return absl::OkStatus();
+                          });
 }
 
-grpc::ServerUnaryReactor* CatalogService::GetServerInfo(grpc::CallbackServerContext* context,
-                                                        const v1::GetServerInfoRequest*,
-                                                        v1::GetServerInfoResponse* response) {
-  return answer(access_, context, kGetServerInfo, [&](const Caller&) {
-    *response = info_;
-    return absl::OkStatus();
-  });
+grpc::ServerUnaryReactor* CatalogService::GetServerInfo(Context* context, const Bytes*,
+                                                        Bytes* bytes) {
+  using Response = v1::GetServerInfoResponse;
+  return answer<Response>(access_, context, kGetServerInfo, bytes,
+                          [&](const Caller&, Response& response) {
+                            response = info_;
+                            return absl::OkStatus();
+                          });
 }
 
-grpc::ServerUnaryReactor* CatalogService::AdviseSource(grpc::CallbackServerContext* context,
-                                                       const v1::AdviseSourceRequest* request,
-                                                       v1::AdviseSourceResponse* response) {
-  return answer(access_, context, kAdviseSource, [&](const Caller&) {
-    const absl::StatusOr<SourceAdvice> advice = adviceOf(*request, atlas_limits_);
-    if (advice.ok()) *response = adviceToProto(*advice);
-    return advice.status();
-  });
+grpc::ServerUnaryReactor* CatalogService::AdviseSource(Context* context, const Bytes* request,
+                                                       Bytes* bytes) {
+  using Response = v1::AdviseSourceResponse;
+  return answer<Response>(
+      access_, context, kAdviseSource, bytes, [&](const Caller&, Response& response) {
+        const absl::StatusOr<SourceAdvice> advice = adviceOf(*request, atlas_limits_);
+        if (advice.ok()) response = adviceToProto(*advice);
+        return advice.status();
+      });
 }
 
 }  // namespace viewloom

@@ -14,6 +14,13 @@
 
 namespace viewloom {
 
+using RawCatalogService = v1::CatalogService::WithRawCallbackMethod_ListStreams<
+    v1::CatalogService::WithRawCallbackMethod_ListDisplays<
+        v1::CatalogService::WithRawCallbackMethod_ListPresets<
+            v1::CatalogService::WithRawCallbackMethod_GetServerInfo<
+                v1::CatalogService::WithRawCallbackMethod_AdviseSource<
+                    v1::CatalogService::Service>>>>>;
+
 // Answer of GetServerInfo; fixed while the server runs.
 struct ServerDescription {
   std::string version;
@@ -29,28 +36,27 @@ struct ServerDescription {
   std::string containment;  // what contains the process, in words; "none"
 };
 
-// Thread-safety: all methods may be called from any thread.
-class CatalogService final : public v1::CatalogService::CallbackService {
+// Reads no bytes of requests that have nothing to say. Thread-safety: all methods may be called
+// from any thread.
+class CatalogService final : public RawCatalogService {
  public:
   CatalogService(const StreamDirectory& directory, const Broadcaster& broadcaster,
                  AccessControl& access, const ServerDescription& description);
 
  private:
-  grpc::ServerUnaryReactor* ListStreams(grpc::CallbackServerContext* context,
-                                        const v1::ListStreamsRequest* request,
-                                        v1::ListStreamsResponse* response) override;
-  grpc::ServerUnaryReactor* ListDisplays(grpc::CallbackServerContext* context,
-                                         const v1::ListDisplaysRequest* request,
-                                         v1::ListDisplaysResponse* response) override;
-  grpc::ServerUnaryReactor* ListPresets(grpc::CallbackServerContext* context,
-                                        const v1::ListPresetsRequest* request,
-                                        v1::ListPresetsResponse* response) override;
-  grpc::ServerUnaryReactor* GetServerInfo(grpc::CallbackServerContext* context,
-                                          const v1::GetServerInfoRequest* request,
-                                          v1::GetServerInfoResponse* response) override;
-  grpc::ServerUnaryReactor* AdviseSource(grpc::CallbackServerContext* context,
-                                         const v1::AdviseSourceRequest* request,
-                                         v1::AdviseSourceResponse* response) override;
+  using Context = grpc::CallbackServerContext;
+  using Bytes = grpc::ByteBuffer;
+
+  grpc::ServerUnaryReactor* ListStreams(Context* context, const Bytes* request,
+                                        Bytes* response) override;
+  grpc::ServerUnaryReactor* ListDisplays(Context* context, const Bytes* request,
+                                         Bytes* response) override;
+  grpc::ServerUnaryReactor* ListPresets(Context* context, const Bytes* request,
+                                        Bytes* response) override;
+  grpc::ServerUnaryReactor* GetServerInfo(Context* context, const Bytes* request,
+                                          Bytes* response) override;
+  grpc::ServerUnaryReactor* AdviseSource(Context* context, const Bytes* request,
+                                         Bytes* response) override;
 
   const StreamDirectory& directory_;
   const Broadcaster& broadcaster_;

@@ -16,6 +16,8 @@ namespace viewloom {
 namespace {
 
 constexpr size_t kSessionBytesMax = 128;
+// A header of the most sources, layers and planes has a third of it, 20 kB.
+constexpr size_t kRequestBytesMax = size_t{64} << 10;
 // Frames without a report plus reports not yet written. Over it the call reads no more, so that a
 // publisher that does not read its reports holds back nobody but itself.
 constexpr size_t kOpenReportsMax = 64;
@@ -52,7 +54,7 @@ absl::Status PublishCall::handleMessage(grpc::ByteBuffer& bytes) {
     if (taken_bytes) return taken_bytes->ok() ? noteChunk(**taken_bytes) : taken_bytes->status();
   }
   v1::PublishFramesRequest request;
-  VIEWLOOM_RETURN_IF_ERROR(parseMessage(bytes, request));
+  VIEWLOOM_RETURN_IF_ERROR(parseMessage(bytes, request, kRequestBytesMax));
   switch (request.message_case()) {
     case v1::PublishFramesRequest::kSettings:
       return handleSettings(request.settings());

@@ -7,6 +7,7 @@
 #include "base/str_cat.h"
 #include "messages/wire_message.h"
 #include "publish/subscriber.h"
+#include "rpc/display_request.h"
 #include "rpc/eye_poses_from_proto.h"
 #include "rpc/stream_name.h"
 
@@ -46,7 +47,7 @@ class WatchCall::Seat final : public Subscriber {
 absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
   const int64_t received_ns = parts_.clock.nowNs();
   v1::StreamAtlasesRequest request;
-  VIEWLOOM_RETURN_IF_ERROR(parseMessage(bytes, request));
+  VIEWLOOM_RETURN_IF_ERROR(parseMessage(bytes, request, kDisplayRequestBytesMax));
   const bool opens = request.message_case() == v1::StreamAtlasesRequest::kOpen;
   if (opens != stream_.empty()) {
     return opens ? invalidField("open", "open came again; accepted is once, as the first message")

@@ -31,8 +31,13 @@ grpc::ByteBuffer bytesFromMessage(const google::protobuf::MessageLite& message) 
   return grpc::ByteBuffer(&slice, 1);
 }
 
-absl::Status parseMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message) {
+absl::Status parseMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message,
+                          size_t bytes_max) {
   const size_t byte_count = bytes.Length();
+  if (byte_count > bytes_max) {
+    return absl::InvalidArgumentError(strCat("a ", message.GetTypeName(), " has ", byte_count,
+                                             " bytes; accepted is up to ", bytes_max));
+  }
   grpc::ProtoBufferReader reader(&bytes);
   if (reader.status().ok() &&
       message.ParseFromBoundedZeroCopyStream(&reader, static_cast<int>(byte_count))) {

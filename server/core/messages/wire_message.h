@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 #include <google/protobuf/message_lite.h>
@@ -15,8 +16,11 @@ namespace viewloom {
 
 grpc::ByteBuffer bytesFromMessage(const google::protobuf::MessageLite& message);
 
-// Parses a message. INVALID_ARGUMENT for bytes that are not such a message.
-absl::Status parseMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message);
+// Parses a message of at most bytes_max. INVALID_ARGUMENT for more, and for bytes that are not such
+// a message. Two bytes of a message may take a hundred in memory, before anybody can count the
+// elements, so each caller says how much its largest honest message has.
+absl::Status parseMessage(grpc::ByteBuffer& bytes, google::protobuf::MessageLite& message,
+                          size_t bytes_max = SIZE_MAX);
 
 // Shares part of the bytes without a copy. They live as long as the slice.
 grpc::Slice sliceOf(const SharedBytes& bytes, size_t offset, size_t count);
