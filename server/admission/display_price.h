@@ -42,5 +42,8 @@ absl::StatusOr<Reservation> admitViewer(MemoryBudget& budget, const DisplaySpec&
 // A publisher's call, or a connection whatever it asks for: its buffers here, and what the kernel
 // holds of it.
 inline constexpr uint64_t kConnectionBytes = (uint64_t{64} << 10) + kSendQueueBytes;
+// An open gRPC call, whatever it asks for: up to 8 kB of the library, and metadata of up to 8 kB as
+// they came and as they are read.
+inline constexpr uint64_t kOpenCallBytes = uint64_t{24} << 10;
 
 }  // namespace viewloom

@@ -3,6 +3,7 @@
 
 #include "access/bearer.h"
 #include "rpc/peer_host.h"
+#include "rpc/tls_credentials.h"
 
 namespace viewloom {
 namespace {
@@ -10,6 +11,11 @@ namespace {
 constexpr uint32_t kCheckTicks = 4;  // 1 s
 
 }  // namespace
+
+std::string clientHost(const grpc::CallbackServerContext& context) {
+  const std::string subject = clientSubject(context);
+  return subject.empty() ? peerHost(context.peer()) : subject;
+}
 
 absl::StatusOr<Caller> admitCall(AccessControl& access, const grpc::CallbackServerContext& context,
                                  std::string_view rpc) {

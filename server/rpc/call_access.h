@@ -2,6 +2,7 @@
 // Proves who calls, by the metadata of a call.
 #pragma once
 
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -11,6 +12,10 @@
 #include "rpc/liveness.h"
 
 namespace viewloom {
+
+// The client at the other end of a call: the subject of its certificate, or else its host. Clients
+// with one certificate are one user's, wherever they run.
+std::string clientHost(const grpc::CallbackServerContext& context);
 
 // The caller of an RPC (operations.h), by its `authorization: Bearer` metadata. UNAUTHENTICATED or
 // PERMISSION_DENIED otherwise.

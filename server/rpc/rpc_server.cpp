@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
-#include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/resource_quota.h>
 #include <grpcpp/security/server_credentials.h>
 
@@ -13,11 +12,12 @@
 namespace viewloom {
 namespace {
 
-// A chunk of 1 MiB and what surrounds it; the largest display, of 1024 cameras, takes a tenth of
-// it.
+// A chunk of 1 MiB and what surrounds it. Calls limit their other messages further.
 constexpr int kReceiveBytesMax = 2 << 20;
-// Calls at a time on one connection; a proxy may carry all subscribers of a server over one.
-constexpr int kConnectionCallsMax = 1024;
+// Calls at a time on one connection: displays and streams of one program. Libraries hold further
+// calls back, and proxies open another connection for them. A call whose request does not come is
+// seen by nobody here, so that this limit is the only one of such calls.
+constexpr int kConnectionCallsMax = 128;
 // Writes with more to follow are gathered up to this size. A write to a socket wakes its reader:
 // 1.5 MB sent 50 KB at a time cost a server two to three times as much as in one or two writes. The
 // library's default of 64 KiB was in between, and 4 MiB no better. Larger frames or windows of
@@ -32,10 +32,9 @@ constexpr int kIdleMsMax = 60'000;
 constexpr int kHandshakeMsMax = 10'000;
 constexpr uint32_t kProbeTicks = 4;  // 1 s
 
-void addLibraryServices() {
-  // Both are settings of the process and take effect on servers built later.
+void addReflection() {
+  // A setting of the process, which takes effect on servers built later.
   static const bool once = [] {
-    grpc::EnableDefaultHealthCheckService(true);
     grpc::reflection::InitProtoReflectionServerBuilderPlugin();
     return true;
   }();
@@ -94,9 +93,12 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
                 .clock = parts.clock,
                 .metrics = parts.metrics,
                 .limits = description.atlas_limits},
-               parts.access),
-      catalog_(parts.directory, parts.broadcaster, parts.access, description) {
-  addLibraryServices();
+               parts.access, parts.memory),
+      catalog_(parts.directory, parts.broadcaster, parts.access, description),
+      health_(parts.memory,
+              {v1::IngestService::service_full_name(), v1::DisplayService::service_full_name(),
+               v1::CatalogService::service_full_name()}) {
+  addReflection();
   grpc::ServerBuilder builder;
   setLimits(builder, options);
   constexpr auto kFromFd = grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD;
@@ -107,6 +109,7 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
   builder.RegisterService(&ingest_);
   builder.RegisterService(&display_);
   builder.RegisterService(&catalog_);
+  builder.RegisterService(&health_);
   server_ = builder.BuildAndStart();
   if (server_ == nullptr) throw std::runtime_error("the gRPC library did not start its server");
   listener_.start([this](int listener_fd, int fd) {
@@ -116,12 +119,6 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
     acceptor_->HandleNewConnection(&connection);
   });
   ticker_.emplace(kTick, [this] { tick(); });
-  // Beside the whole server, which the library knows by itself.
-  for (const char* service :
-       {v1::IngestService::service_full_name(), v1::DisplayService::service_full_name(),
-        v1::CatalogService::service_full_name()}) {
-    server_->GetHealthCheckService()->SetServingStatus(service, true);
-  }
 }
 
 RpcServer::~RpcServer() {
@@ -131,7 +128,7 @@ RpcServer::~RpcServer() {
 
 void RpcServer::drain() {
   is_draining_ = true;
-  server_->GetHealthCheckService()->SetServingStatus(false);
+  health_.drain();
   ingest_.drain();
   display_.drain();
 }
@@ -144,6 +141,7 @@ absl::Status RpcServer::health() const {
 void RpcServer::tick() {
   ingest_.tick(unread_ticks_max_);
   display_.tick(unread_ticks_max_);
+  health_.tick();
   if (tick_count_++ % kProbeTicks != 0 || is_draining_) return;
   probe_->ask();
   metrics_.grpc_connections.set(static_cast<double>(listener_.connectionCount()));
@@ -151,6 +149,7 @@ void RpcServer::tick() {
 
 void RpcServer::shutdown() {
   listener_.stop();
+  health_.end();
   server_->Shutdown(std::chrono::system_clock::now() + drain_time_);
   server_->Wait();
   ticker_.reset();

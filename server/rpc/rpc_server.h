@@ -14,6 +14,7 @@
 #include <grpcpp/server_builder.h>
 
 #include "rpc/catalog_service.h"
+#include "rpc/health_service.h"
 #include "rpc/liveness.h"
 #include "rpc/rpc_listener.h"
 #include "rpc/rpc_probe.h"
@@ -88,6 +89,7 @@ class RpcServer {
   IngestService ingest_;
   DisplayService display_;
   CatalogService catalog_;
+  HealthService health_;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
   std::unique_ptr<grpc::Server> server_;  // after the services it calls
   std::optional<RpcProbe> probe_;

@@ -2,9 +2,7 @@
 #include "rpc/stream_services.h"
 
 #include "admission/request_boundary.h"
-#include "rpc/peer_host.h"
 #include "rpc/status_to_grpc.h"
-#include "rpc/tls_credentials.h"
 
 namespace viewloom {
 namespace {
@@ -18,12 +16,6 @@ class RefusedCall final : public StreamReactor {
   void OnDone() override { delete this; }
 };
 
-// Clients with one certificate are one user's, wherever they run.
-std::string hostOf(const grpc::CallbackServerContext& context) {
-  const std::string subject = clientSubject(context);
-  return subject.empty() ? peerHost(context.peer()) : subject;
-}
-
 }  // namespace
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::PublishFrames(
@@ -31,7 +23,7 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::Publ
   absl::StatusOr<Caller> caller =
       unlessThrown([&] { return admitLiveCall(access_, *context, kPublishFrames); });
   if (!caller.ok()) return new RefusedCall(caller.status());
-  const auto call = std::make_shared<PublishCall>(parts_, *std::move(caller), hostOf(*context));
+  const auto call = std::make_shared<PublishCall>(parts_, *std::move(caller), clientHost(*context));
   call->setContext(*context);
   calls_.open(call);
   return call.get();
@@ -61,7 +53,7 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* DisplayService::Str
   absl::StatusOr<Caller> caller =
       unlessThrown([&] { return admitLiveCall(access_, *context, kStreamAtlases); });
   if (!caller.ok()) return new RefusedCall(caller.status());
-  const auto call = std::make_shared<WatchCall>(parts_, *std::move(caller), hostOf(*context));
+  const auto call = std::make_shared<WatchCall>(parts_, *std::move(caller), clientHost(*context));
   call->setContext(*context);
   calls_.open(call);
   return call.get();

@@ -17,7 +17,8 @@ namespace viewloom {
 class IngestService final
     : public v1::IngestService::WithRawCallbackMethod_PublishFrames<v1::IngestService::Service> {
  public:
-  IngestService(const IngestParts& parts, AccessControl& access) : parts_(parts), access_(access) {}
+  IngestService(const IngestParts& parts, AccessControl& access)
+      : parts_(parts), access_(access), calls_(parts.memory) {}
 
   // The set of displays of a stream changed: its publisher hears what they want.
   void demandChanged(const std::string& stream);
@@ -39,8 +40,8 @@ class IngestService final
 class DisplayService final
     : public v1::DisplayService::WithRawCallbackMethod_StreamAtlases<v1::DisplayService::Service> {
  public:
-  DisplayService(const DisplayParts& parts, AccessControl& access)
-      : parts_(parts), access_(access) {}
+  DisplayService(const DisplayParts& parts, AccessControl& access, MemoryBudget& memory)
+      : parts_(parts), access_(access), calls_(memory) {}
 
   // To be called every kTick; cuts calls like IngestService::tick.
   void tick(uint32_t unread_ticks_max);

@@ -27,17 +27,22 @@ class NamedCall {
 class LiveCallsTest : public testing::Test {
  protected:
   // How many of them were not turned away.
-  size_t open(const std::string& identity, size_t count) {
+  size_t open(const std::string& identity, size_t count) { return openIn(calls_, identity, count); }
+  size_t openIn(LiveCalls<NamedCall>& calls, const std::string& identity, size_t count) {
     size_t opened_count = 0;
     for (size_t i = 0; i < count; ++i) {
       kept_.push_back(std::make_shared<NamedCall>(identity));
-      calls_.open(kept_.back());
+      calls.open(kept_.back());
       if (!kept_.back()->isTurnedAway()) ++opened_count;
     }
     return opened_count;
   }
 
-  LiveCalls<NamedCall> calls_;
+  static constexpr size_t kFitting = 100;
+
+  MemoryBudget budget_{kFitting * kOpenCallBytes};
+  LiveCalls<NamedCall> calls_{unboundedMemory()};
+  LiveCalls<NamedCall> priced_{budget_};
   std::vector<std::shared_ptr<NamedCall>> kept_;
 };
 
@@ -47,6 +52,16 @@ TEST_F(LiveCallsTest, leavesPlacesToOthers) {
   EXPECT_EQ(open("greedy", 1), 0U);
   kept_.clear();
   EXPECT_EQ(open("greedy", 1), 1U);
+}
+
+TEST_F(LiveCallsTest, takeMemoryOfTheirClientUntilTheyEnd) {
+  EXPECT_EQ(openIn(priced_, "greedy", kFitting), kFitting * 3 / 4);
+  EXPECT_EQ(openIn(priced_, "modest", 1), 1U);
+  EXPECT_EQ(budget_.reservedBytes(MemoryUse::kConnections),
+            (kFitting * 3 / 4 + 1) * kOpenCallBytes);
+  kept_.clear();
+  priced_.forEach([](NamedCall&) {});
+  EXPECT_EQ(budget_.reservedBytes(), 0U);
 }
 
 }  // namespace
