@@ -18,6 +18,9 @@ constexpr int kReceiveBytesMax = 2 << 20;
 // calls back, and proxies open another connection for them. A call whose request does not come is
 // seen by nobody here, so that this limit is the only one of such calls.
 constexpr int kConnectionCallsMax = 128;
+// Threads for calls of reflection, each of which keeps one for as long as it is open. Our services
+// have none of these. The library refuses calls beyond them.
+constexpr int kReflectionThreadsMax = 16;
 // Writes with more to follow are gathered up to this size. A write to a socket wakes its reader:
 // 1.5 MB sent 50 KB at a time cost a server two to three times as much as in one or two writes. The
 // library's default of 64 KiB was in between, and 4 MiB no better. Larger frames or windows of
@@ -45,6 +48,7 @@ void setLimits(grpc::ServerBuilder& builder, const RpcServerOptions& options) {
   const auto keepalive_ms = static_cast<int>(std::chrono::milliseconds(options.keepalive).count());
   grpc::ResourceQuota quota("viewloomd");
   quota.Resize(options.memory_bytes_max);
+  quota.SetMaxThreads(kReflectionThreadsMax);
   builder.SetResourceQuota(quota);
   builder.SetMaxReceiveMessageSize(kReceiveBytesMax);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kConnectionCallsMax);
