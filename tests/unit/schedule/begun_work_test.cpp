@@ -20,8 +20,7 @@ using RunPtr = std::shared_ptr<FakeRun>;
 
 RunPtr runOf(const std::string& host, int64_t deadline_ns, bool is_tracked = false) {
   return std::make_shared<FakeRun>(FakeRun{
-      host,
-      {.deadline_ns = deadline_ns, .is_tracked = is_tracked, .payers = {Payer(host)}}});
+      host, {.deadline_ns = deadline_ns, .is_tracked = is_tracked, .payers = {Payer(host)}}});
 }
 
 class BegunWorkTest : public testing::Test {

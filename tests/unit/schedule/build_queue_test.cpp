@@ -16,8 +16,7 @@ constexpr int64_t kMs_ns = 1'000'000;
 constexpr StreamDemand kWatched{.is_watched = true};
 
 struct Stream {
-  explicit Stream(const std::string& host)
-      : claim{.payers = {Payer(host)}, .stream = host} {}
+  explicit Stream(const std::string& host) : claim{.payers = {Payer(host)}, .stream = host} {}
 
   Claim claim;
   StreamTurn turn;
