@@ -63,8 +63,7 @@ absl::Status PublishCall::handleMessage(grpc::ByteBuffer& bytes) {
     case v1::PublishFramesRequest::kChunk:
       return handleChunk(request.chunk());
     case v1::PublishFramesRequest::kHeartbeat:
-      if (stream_.empty()) return refuseFirst("heartbeat");
-      return absl::OkStatus();
+      return stream_.empty() ? refuseFirst("heartbeat") : absl::OkStatus();
     case v1::PublishFramesRequest::MESSAGE_NOT_SET:
       break;
   }
@@ -195,8 +194,7 @@ void PublishCall::onTaken() {
   {
     std::lock_guard lock(mutex_);
     const int64_t now_ns = parts_.clock.nowNs();
-    const int64_t waited_ns = now_ns - waits_since_ns_.value_or(now_ns);
-    waits_since_ns_.reset();
+    const int64_t waited_ns = now_ns - std::exchange(waits_since_ns_, {}).value_or(now_ns);
     advance();
     has_new_rate = wanted_.noteTurn(waited_ns, now_ns);
   }
