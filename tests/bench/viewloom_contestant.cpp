@@ -87,7 +87,7 @@ Picture ViewloomContestant::picture() {
   Picture picture;
   if (sweep_) {
     sweep({.records = true});
-    picture.rgba = sweep_->atlas.color;
+    picture.rgba.assign(sweep_->atlas.color.begin(), sweep_->atlas.color.end());
     for (const abi::RayRecord& record : sweep_->atlas.records) {
       const bool is_hit =
           record.ray_class == abi::kClassHit || record.ray_class == abi::kClassHitAssumed;

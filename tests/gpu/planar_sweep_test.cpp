@@ -2,6 +2,9 @@
 // Atlases swept as Y'CbCr are judged by the same atlas in RGB and libjpeg-turbo's conversion.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+
 #include "support/test_frames.h"
 #include "support/ycbcr_planes.h"
 #include "sweep/sweep_source.h"
@@ -60,10 +63,37 @@ class PlanarSweepTest : public testing::Test {
     return coverage;
   }
 
+  void fillPlanes(uint8_t byte) {
+    const auto fill = [&](auto& plane) {
+      std::memset(static_cast<void*>(plane.data()), byte, plane.size() * sizeof plane[0]);
+    };
+    fill(atlas_.color);
+    fill(atlas_.depth);
+    fill(atlas_.mask);
+    fill(atlas_.linear);
+    fill(atlas_.records);
+  }
+
+  static std::vector<size_t> unusedPxOf(const AtlasLayout& layout) {
+    std::vector<size_t> unused;
+    for (size_t px = 0; px < layout.size_px.area(); ++px) {
+      const size_t column = px % layout.size_px.width / layout.tile_size_px.width;
+      const size_t y = px / layout.size_px.width;
+      const bool is_above = y < layout.padding_top_px;
+      const size_t row = is_above ? 0 : (y - layout.padding_top_px) / layout.tile_size_px.height;
+      if (is_above || column >= layout.columns ||
+          layout.viewAt(uint32_t(column), uint32_t(row)) == layout.views.size()) {
+        unused.push_back(px);
+      }
+    }
+    return unused;
+  }
+
   WorkerPool workers_{2};
   SweepSource source_;
   ViewSweeper sweeper_;
   SweptAtlas atlas_;
+  SweptAtlas first_;  // the same picture, swept before
 };
 
 TEST_F(PlanarSweepTest, givesThePlanesOfTheWholeAtlasHoweverRowsAreShared) {
@@ -71,17 +101,49 @@ TEST_F(PlanarSweepTest, givesThePlanesOfTheWholeAtlasHoweverRowsAreShared) {
     const TraceJob job = jobOf(quilt(size_px));
     ASSERT_EQ(job.layout->size_px, size_px);
     const Coverage coverage = sweep(job, kRgb, 8);
-    const std::vector<uint32_t> rgb = atlas_.color;
-    const std::vector<uint8_t> mask = atlas_.mask;
+    const UntouchedVector<uint32_t> rgb = atlas_.color;
+    const UntouchedVector<uint8_t> mask = atlas_.mask;
     for (const ColorForm form : {ColorForm::kYcbcr420, ColorForm::kYcbcr444}) {
       const std::vector<uint8_t> expected = ycbcrPlanesOf(rgb, size_px, form);
       for (const uint32_t rows_per_piece : {1U, 2U, 3U, 8U, 1000U}) {
         SCOPED_TRACE(testing::Message() << size_px.width << "x" << size_px.height << ", form "
                                         << int(form) << ", " << rows_per_piece << " rows a piece");
-        EXPECT_EQ(sweep(job, {.color = form, .mask = true}, rows_per_piece), coverage);
-        EXPECT_TRUE(atlas_.ycbcr == expected);
+        const TraceOutputs outputs = {.color = form, .mask = true};
+        atlas_.begin(job, outputs);
+        std::ranges::fill(atlas_.ycbcr, uint8_t{0xa5});
+        EXPECT_EQ(sweep(job, outputs, rows_per_piece), coverage);
+        EXPECT_TRUE(std::ranges::equal(atlas_.ycbcr, expected));
         EXPECT_TRUE(atlas_.mask == mask);
         EXPECT_TRUE(atlas_.color.empty());
+      }
+    }
+  }
+}
+
+// Whatever lay in memory, no px shows it: px beside views and where none stands are black.
+TEST_F(PlanarSweepTest, showsNothingOfWhatMemoryHeldBefore) {
+  constexpr TraceOutputs kAll{.depth = true, .mask = true, .linear = true, .records = true};
+  for (const SizePx size_px : kAtlases_px) {
+    SCOPED_TRACE(testing::Message() << size_px.width << "x" << size_px.height);
+    const TraceJob job = jobOf(quilt(size_px));
+    const auto unused = unusedPxOf(*job.layout);
+    for (const uint32_t rows_per_piece : {1U, 3U, 1000U}) {
+      for (const uint8_t byte : {uint8_t{0}, uint8_t{0xa5}}) {
+        atlas_.begin(job, kAll);
+        fillPlanes(byte);
+        sweep(job, kAll, rows_per_piece);
+        for (const size_t px : unused) {
+          ASSERT_EQ(atlas_.color[px], kOpaqueBlack) << px;
+          ASSERT_EQ(atlas_.depth[px], 0) << px;
+          ASSERT_EQ(atlas_.mask[px], 0) << px;
+          for (size_t c = 0; c < 4; ++c) ASSERT_EQ(atlas_.linear[4 * px + c], 0) << px;
+          ASSERT_EQ(atlas_.records[px].inv_z, 0) << px;
+        }
+        if (byte == 0) first_ = atlas_;
+        EXPECT_TRUE(atlas_.color == first_.color);
+        EXPECT_TRUE(atlas_.depth == first_.depth);
+        EXPECT_TRUE(atlas_.mask == first_.mask);
+        EXPECT_TRUE(atlas_.linear == first_.linear);
       }
     }
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iostream>
 #include <limits>
+#include <span>
 
 #include "calibration/calibration.h"
 #include "scoring/psnr.h"
@@ -92,7 +93,7 @@ struct Difference {
 
 // Figure over the px that `isOf` takes, by index. Infinite where there are none.
 template <typename IsOf>
-double psnr(const std::vector<uint32_t>& a, const std::vector<uint32_t>& b, const IsOf& isOf) {
+double psnr(std::span<const uint32_t> a, std::span<const uint32_t> b, const IsOf& isOf) {
   Psnr psnr;
   for (size_t i = 0; i < a.size(); ++i) {
     if (!isOf(i)) continue;

@@ -137,7 +137,7 @@ class AtlasSweep final : public StripWork {
     sweepOf(order_).note(rows_per_piece_, measured_ns);
   }
 
-  // The first one makes room for all.
+  // The first one takes memory for all; each touches what it writes.
   void makePiece(uint32_t piece) override {
     if (piece == 0) atlas_->planes.begin(*order_.picture, planes_);
     const SweepPlan& plan = sweepOf(order_).plan;
@@ -163,7 +163,7 @@ class AtlasSweep final : public StripWork {
   StripPlanes planes(uint32_t strip) const override {
     const SizePx size_px = order_.picture->layout->size_px;
     const BandRows rows = order_.strips.rowsOf(strip);
-    const auto rowsOf = [&]<typename T>(const std::vector<T>& plane) {
+    const auto rowsOf = [&]<typename T>(const UntouchedVector<T>& plane) {
       if (plane.empty()) return std::span<const T>();
       return std::span<const T>(plane).subspan(size_t{rows.first_row} * size_px.width,
                                                size_t{rows.row_count} * size_px.width);

@@ -14,6 +14,40 @@ bool hasUnusedPixels(const TraceJob& job) {
          layout.views.size() < size_t{layout.columns} * layout.rows;
 }
 
+// Calls clear(first px, count) for runs of px in a row of the atlas that no view writes.
+void forEachUnusedRun(const TraceJob& job, uint32_t row, const auto& clear) {
+  const AtlasLayout& layout = *job.layout;
+  const size_t first_px = size_t{row} * layout.size_px.width;
+  if (row < layout.padding_top_px) return clear(first_px, layout.size_px.width);
+  const uint32_t grid_row = (row - layout.padding_top_px) / layout.tile_size_px.height;
+  const auto tiles = job.tilesOf(0).subspan(size_t{grid_row} * layout.columns, layout.columns);
+  for (uint32_t column = 0; column < layout.columns; ++column) {
+    if (tiles[column].is_used != 0) continue;
+    clear(first_px + size_t{column} * layout.tile_size_px.width, layout.tile_size_px.width);
+  }
+  const uint32_t end_px = layout.columns * layout.tile_size_px.width;
+  if (end_px < layout.size_px.width) clear(first_px + end_px, layout.size_px.width - end_px);
+}
+
+// Rows of the atlas above all views.
+void clearAbove(const AtlasLayout& layout, ColorForm form, BandRows rows, uint8_t* planes) {
+  const YcbcrLayout at(layout.size_px, form);
+  const uint32_t shared_px = form == ColorForm::kYcbcr420 ? 2 : 1;  // rows a chroma sample
+  // A row that shares chroma with the first one of a view is written with it.
+  const uint32_t end_row = layout.padding_top_px / shared_px * shared_px;
+  const auto fillRows = [&](size_t offset, size_t stride, uint32_t rows_a_sample, uint8_t code) {
+    const auto sampleRow = [&](uint32_t row) {
+      return (std::min(row, end_row) + rows_a_sample - 1) / rows_a_sample;
+    };
+    const size_t first = sampleRow(rows.first_row);
+    const size_t end = sampleRow(rows.first_row + rows.row_count);
+    std::fill_n(planes + offset + first * stride, (end - first) * stride, code);
+  };
+  fillRows(0, at.luma_stride, 1, abi::lumaOf(0, 0, 0));
+  fillRows(at.cbOffset(), at.chroma_stride, shared_px, abi::cbOf(0, 0, 0));
+  fillRows(at.crOffset(), at.chroma_stride, shared_px, abi::crOf(0, 0, 0));
+}
+
 // A vector that grows by itself may take twice what it needs, and keeps its old content.
 void resizeExactly(size_t count, auto& plane) {
   if (plane.capacity() < count) {
@@ -28,23 +62,28 @@ void resizeExactly(size_t count, auto& plane) {
 void SweptAtlas::begin(const TraceJob& job, const TraceOutputs& outputs) {
   const size_t area_px = job.layout->size_px.area();
   const bool is_rgba = outputs.color == ColorForm::kRgba;
-  const bool clears = hasUnusedPixels(job);
-  const auto reset = [&](bool is_wanted, size_t count, auto value, auto& plane) {
-    resizeExactly(is_wanted ? count : 0, plane);
-    if (clears) std::fill(plane.begin(), plane.end(), value);
-  };
-  reset(is_rgba, area_px, kOpaqueBlack, color);
-  reset(outputs.depth, area_px, 0.0F, depth);
-  reset(outputs.mask, area_px, uint8_t{0}, mask);
-  reset(outputs.linear, 4 * area_px, 0.0F, linear);
-  reset(outputs.records, area_px, abi::RayRecord{}, records);
+  resizeExactly(is_rgba ? area_px : 0, color);
+  resizeExactly(outputs.depth ? area_px : 0, depth);
+  resizeExactly(outputs.mask ? area_px : 0, mask);
+  resizeExactly(outputs.linear ? 4 * area_px : 0, linear);
+  resizeExactly(outputs.records ? area_px : 0, records);
   if (is_rgba) return ycbcr.clear();
-  const YcbcrLayout layout(job.layout->size_px, outputs.color);
-  resizeExactly(layout.sizeBytes(), ycbcr);
-  if (!clears) return;
-  std::fill_n(ycbcr.begin(), layout.lumaBytes(), abi::lumaOf(0, 0, 0));
-  static_assert(abi::cbOf(0, 0, 0) == abi::crOf(0, 0, 0));
-  std::fill(ycbcr.begin() + ptrdiff_t(layout.cbOffset()), ycbcr.end(), abi::cbOf(0, 0, 0));
+  resizeExactly(YcbcrLayout(job.layout->size_px, outputs.color).sizeBytes(), ycbcr);
+}
+
+void SweptAtlas::clearUnused(const TraceJob& job, const TraceOutputs& outputs, BandRows rows) {
+  if (!hasUnusedPixels(job)) return;
+  const bool is_rgba = outputs.color == ColorForm::kRgba;
+  for (uint32_t row = rows.first_row; row < rows.first_row + rows.row_count; ++row) {
+    forEachUnusedRun(job, row, [&](size_t first_px, size_t count) {
+      if (is_rgba) std::fill_n(color.data() + first_px, count, kOpaqueBlack);
+      if (outputs.depth) std::fill_n(depth.data() + first_px, count, 0.0F);
+      if (outputs.mask) std::fill_n(mask.data() + first_px, count, uint8_t{0});
+      if (outputs.linear) std::fill_n(linear.data() + 4 * first_px, 4 * count, 0.0F);
+      if (outputs.records) std::fill_n(records.data() + first_px, count, abi::RayRecord{});
+    });
+  }
+  if (!is_rgba) clearAbove(*job.layout, outputs.color, rows, ycbcr.data());
 }
 
 uint64_t SweptAtlas::capacityBytesFor(const TraceJob& job, const TraceOutputs& outputs) const {

@@ -31,6 +31,15 @@ float cleanShare(const SweepPicture& picture, const SweepView& view, uint32_t wi
   return std::min(std::abs(eye_px_m) * picture.source.steps.inv_z_range, 1.0F);
 }
 
+// Rows of the atlas whose unused px are cleared with these rows of the plan: as many with each.
+BandRows clearedWith(const SweepPicture& picture, uint32_t first_row, uint32_t row_count) {
+  const auto atlasRow = [&](uint64_t row) {
+    return uint32_t(row * picture.job->layout->size_px.height / picture.plan->rowCount());
+  };
+  const uint32_t first = atlasRow(first_row);
+  return {first, atlasRow(first_row + row_count) - first};
+}
+
 }  // namespace
 
 // Writes codes that are rounded already.
@@ -210,6 +219,7 @@ Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row,
                  .atlas = atlas,
                  .coverage = {}};
   VIEWLOOM_CHECK(picture.plan->colorForm(outputs.color) == outputs.color);
+  atlas.clearUnused(job, outputs, clearedWith(picture, first_row, row_count));
   builder_.begin(picture.source, picture.plan->colorReach());
   if (outputs.color == ColorForm::kRgba) {
     for (uint32_t index = first_row; index < first_row + row_count; ++index) {
