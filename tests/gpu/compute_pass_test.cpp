@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gpu/compute_pass.h"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 #include <vector>
@@ -39,6 +40,7 @@ class ComputePassTest : public GpuTest {
     return {device(),
             {.spirv = scale_floats_spirv,
              .push_bytes = sizeof(ScalePush),
+             .takes_columns = true,
              .constants = factor_and_offset,
              .debug_name = "scale floats"}};
   }
@@ -59,6 +61,27 @@ TEST_F(ComputePassTest, readsAndWritesMappedMemoryByAddress) {
   ASSERT_TRUE(timeline.wait(recorder.submit(timeline)));
 
   for (uint32_t i = 0; i < kCount; ++i) ASSERT_EQ(floats(target)[i], 3.0f * float(i) + 7.0f) << i;
+}
+
+TEST_F(ComputePassTest, writesTheColumnsThatItIsGiven) {
+  constexpr uint32_t kCount = 10 * kGroupSize;
+  const Buffer source(device(), {.size_bytes = 4 * kCount, .intent = MemoryIntent::kUpload});
+  const Buffer target(device(), {.size_bytes = 4 * kCount, .intent = MemoryIntent::kReadback});
+  const ComputePass pass = makeScalePass({{abi::kIdFree, 3}, {abi::kIdFree + 1, 7}});
+  std::iota(floats(source).begin(), floats(source).end(), 0.0f);
+  std::ranges::fill(floats(target), -1.0f);
+
+  Timeline timeline(device());
+  CommandRecorder recorder(device());
+  const Commands commands = recorder.begin();
+  pass.recordColumns(commands, ScalePush{source.address(), target.address(), kCount}, {2, 5}, 1);
+  recordComputeToHost(commands);
+  ASSERT_TRUE(timeline.wait(recorder.submit(timeline)));
+
+  for (uint32_t i = 0; i < kCount; ++i) {
+    const bool is_given = i >= 2 * kGroupSize && i < 5 * kGroupSize;
+    ASSERT_EQ(floats(target)[i], is_given ? 3.0f * float(i) + 7.0f : -1.0f) << i;
+  }
 }
 
 TEST_F(ComputePassTest, reachesPast128MiB) {

@@ -137,6 +137,7 @@ double MirrorStage::timedMs(const Record& record) {
   record(commands, {.structure = structure_.firstPart(),
                     .job = job_,
                     .row_count = layout().size_px.height,
+                    .columns = {0, groupCount(layout().size_px.width)},
                     .push = push(),
                     .params = params_,
                     .reflected = reflected_});

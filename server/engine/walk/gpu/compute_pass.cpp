@@ -109,7 +109,11 @@ vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& 
                                                 .pName = "main",
                                                 .pSpecializationInfo = &specialization};
   return {device.handle(), device.pipelineCache(),
-          vk::ComputePipelineCreateInfo{.stage = stage, .layout = layout}};
+          vk::ComputePipelineCreateInfo{.flags = options.takes_columns
+                                                     ? vk::PipelineCreateFlagBits::eDispatchBase
+                                                     : vk::PipelineCreateFlags(),
+                                        .stage = stage,
+                                        .layout = layout}};
 }
 
 }  // namespace
@@ -117,6 +121,7 @@ vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& 
 ComputePass::ComputePass(const Device& device, const ComputePassOptions& options)
     : device_(&device),
       push_bytes_(options.push_bytes),
+      takes_columns_(options.takes_columns),
       slots_(hide(makeSlots(device, options.descriptors))),
       layout_(hide(makeLayout(device, options.push_bytes, **slots_))),
       pipeline_(hide(makePipeline(device, options, **layout_))) {
@@ -166,6 +171,14 @@ void ComputePass::record(Commands commands, std::span<const std::byte> push, uin
                          uint32_t groups_y, uint32_t groups_z) const {
   recordState(commands, push);
   vk::CommandBuffer(commands.handle()).dispatch(groups_x, groups_y, groups_z);
+}
+
+void ComputePass::recordColumns(Commands commands, std::span<const std::byte> push,
+                                GroupColumns columns, uint32_t groups_y) const {
+  VIEWLOOM_CHECK(takes_columns_ && columns.first < columns.end);
+  recordState(commands, push);
+  vk::CommandBuffer(commands.handle())
+      .dispatchBase(columns.first, 0, 0, columns.end - columns.first, groups_y, 1);
 }
 
 void ComputePass::recordIndirect(Commands commands, std::span<const std::byte> push,

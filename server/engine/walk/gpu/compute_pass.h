@@ -20,9 +20,16 @@ struct KernelConstant {
   uint32_t value = 0;
 };
 
+// Groups [first, end) of a row of groups.
+struct GroupColumns {
+  uint32_t first = 0;
+  uint32_t end = 0;
+};
+
 struct ComputePassOptions {
   std::span<const uint32_t> spirv;
-  uint32_t push_bytes = 0;  // at most DeviceLimits::push_bytes_max, a multiple of 4
+  uint32_t push_bytes = 0;     // at most DeviceLimits::push_bytes_max, a multiple of 4
+  bool takes_columns = false;  // whether recordColumns() may be called
   // All that the kernel has; the two of lib/memory.glsl may be left out, and then are false.
   std::span<const KernelConstant> constants = {};
   std::span<const DescriptorSlot> descriptors = {};
@@ -40,6 +47,11 @@ class ComputePass {
   // Dispatches with these push constants; `push` has exactly push_bytes. Does not synchronise.
   void record(Commands commands, std::span<const std::byte> push, uint32_t groups_x,
               uint32_t groups_y = 1, uint32_t groups_z = 1) const;
+
+  // The same of these columns of the groups alone: their place is told as if all were dispatched,
+  // but gl_NumWorkGroups counts them.
+  void recordColumns(Commands commands, std::span<const std::byte> push, GroupColumns columns,
+                     uint32_t groups_y) const;
 
   // The same, with as many groups as three words of a buffer say when the device gets there.
   void recordIndirect(Commands commands, std::span<const std::byte> push, const Buffer& groups,
@@ -63,11 +75,19 @@ class ComputePass {
     recordIndirect(commands, std::as_bytes(std::span(&push, 1)), groups, offset_bytes);
   }
 
+  template <typename Push>
+  requires std::is_trivially_copyable_v<Push> && std::is_class_v<Push> &&
+      (!std::is_convertible_v<Push, std::span<const std::byte>>)void recordColumns(
+          Commands commands, const Push& push, GroupColumns columns, uint32_t groups_y) const {
+    recordColumns(commands, std::as_bytes(std::span(&push, 1)), columns, groups_y);
+  }
+
  private:
   void recordState(Commands commands, std::span<const std::byte> push) const;
 
   const Device* device_;
   uint32_t push_bytes_;
+  bool takes_columns_;
   Hidden<vk::raii::DescriptorSetLayout> slots_;
   Hidden<vk::raii::PipelineLayout> layout_;
   Hidden<vk::raii::Pipeline> pipeline_;

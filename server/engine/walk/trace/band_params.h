@@ -3,9 +3,11 @@
 #pragma once
 
 #include "gpu/commands.h"
+#include "gpu/compute_pass.h"
 #include "gpu/descriptor.h"
 #include "picture/trace_job.h"
 #include "shared/trace_abi.h"
+#include "trace/band_parts.h"
 
 namespace viewloom {
 
@@ -26,6 +28,11 @@ inline uint32_t redFirst(uint32_t rgb) {
 
 inline uint32_t groupCount(uint32_t invocation_count) {
   return (invocation_count + abi::kTraceGroupSize - 1) / abi::kTraceGroupSize;
+}
+
+// Groups whose invocations are these columns of px; they begin with a group.
+inline GroupColumns groupsOf(const BandPart& part) {
+  return {part.first_column / abi::kTraceGroupSize, groupCount(part.end_column)};
 }
 
 // Empties the list of abi::IncompleteHead, whatever used it before.

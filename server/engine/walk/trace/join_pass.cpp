@@ -20,6 +20,7 @@ ComputePass JoinPass::makePass(const Device& device, const std::monostate&) {
   return {device,
           {.spirv = join_faces_spirv,
            .push_bytes = sizeof(abi::JoinPush),
+           .takes_columns = true,
            .descriptors = kJoinSlots,
            .debug_name = "join faces"}};
 }
@@ -29,19 +30,20 @@ void JoinPass::addMissing(const TraceJob& job, MissingKernels& missing) {
   if (std::ranges::any_of(job.sources, isCubeMap)) pass_.addMissing({}, missing);
 }
 
-void JoinPass::record(Commands commands, const TraceJob& job, uint64_t walked,
-                      uint32_t answer_count, const AnswersLayout& answers, const TraceSlot& slot) {
+void JoinPass::record(Commands commands, const TraceJob& job, uint64_t walked, AnswerSpan span,
+                      const AnswersLayout& answers, const TraceSlot& slot) {
   for (const JobSource& source : job.sources) {
     if (!source.isCubeMap()) continue;
     const ComputePass& join = pass_.get({});
     const abi::JoinPush push{
-        .answer_count = answer_count,
+        .answer_count = span.end,
         .answers_stride = answers.stride,
         .first_walk = source.first_walk,
         .walked_faces = uint32_t(walked >> source.first_walk) & ((1U << kCubeFaceCount) - 1)};
     const Descriptor target = wholeBuffer(abi::kBindingAnswers, slot.answers());
     join.recordDescriptors(commands, std::span(&target, 1));
-    join.record(commands, push, groupCount(answer_count));
+    join.recordColumns(commands, push, {span.first / abi::kTraceGroupSize, groupCount(span.end)},
+                       1);
     recordComputeBarrier(commands);
   }
 }

@@ -17,8 +17,9 @@ class JoinPass {
   // Kernels that record() needs.
   void addMissing(const TraceJob& job, MissingKernels& missing);
   // For each cube map of the job one answer, in the place of its first face's. `walked`: the walks
-  // that have answered, a bit each. Waits for no compute work before it; work after it waits.
-  void record(Commands commands, const TraceJob& job, uint64_t walked, uint32_t answer_count,
+  // that have answered these rays, a bit each. Waits for no compute work before it; work after it
+  // waits.
+  void record(Commands commands, const TraceJob& job, uint64_t walked, AnswerSpan span,
               const AnswersLayout& answers, const TraceSlot& slot);
 
  private:

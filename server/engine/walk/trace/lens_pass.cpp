@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "trace/lens_pass.h"
 
+#include <algorithm>
+
 #include "gpu/commands.h"
 #include "shaders/gather_lens.h"
 #include "shaders/list_met.h"
@@ -89,6 +91,7 @@ ComputePass LensPass::makeGatherPass(const Device& device, const GatherVariant& 
   return {device,
           {.spirv = gather_lens_spirv,
            .push_bytes = sizeof(abi::GatherPush),
+           .takes_columns = true,
            .constants = constants,
            .descriptors = kGatherSlots,
            .debug_name = "gather lens"}};
@@ -135,7 +138,10 @@ void LensPass::record(Commands commands, const StructureSlot& structure, const T
   const ComputePass& gather =
       gather_passes_.get(variantOf(structure, job, slot.linearAddress() != 0));
   const MeanColorPass::Color color = mean_color_.record(commands, structure, reachOf(job));
-  if (metBlocks(layout, rows).row_count == 0) return;
+  // Beside the views is nothing.
+  GroupColumns columns = groupsOf(part);
+  columns.end = std::min(columns.end, groupCount(layout.tile_size_px.width * layout.columns));
+  if (metBlocks(layout, rows).row_count == 0 || columns.first >= columns.end) return;
   std::vector<Descriptor> descriptors = slot.params().of(job, 0, 0);
   for (const Descriptor& descriptor :
        {slot.params().lensPoints(job, 0), structure.measuredDescriptor(),
@@ -147,9 +153,9 @@ void LensPass::record(Commands commands, const StructureSlot& structure, const T
     descriptors.push_back(descriptor);
   }
   gather.recordDescriptors(commands, descriptors);
-  gather.record(commands, describeGather(structure, &color.texels, job, {rows, part.first_row}, {}),
-                groupCount(layout.tile_size_px.width * layout.columns),
-                part.end_row - part.first_row);
+  gather.recordColumns(commands,
+                       describeGather(structure, &color.texels, job, {rows, part.first_row}, {}),
+                       columns, part.end_row - part.first_row);
   recordComputeBarrier(commands);
 }
 

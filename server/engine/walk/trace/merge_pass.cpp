@@ -117,7 +117,8 @@ void MergePass::record(Commands commands, std::span<const StructureSlot* const> 
                    slot, slot.answersOf(walk, answers));
     }
     recordComputeBarrier(commands);
-    join_.record(commands, job, walks, layout.size_px.width * piece.row_count, answers, slot);
+    join_.record(commands, job, walks, {.end = layout.size_px.width * piece.row_count}, answers,
+                 slot);
     const abi::MergePush push{.atlas_width_px = layout.size_px.width,
                               .first_row = piece.first_row,
                               .band_row = row,

@@ -34,6 +34,7 @@ ComputePass MirrorPass::makeReflectPass(const Device& device, const Variant& var
   return {device,
           {.spirv = reflect_spirv,
            .push_bytes = sizeof(abi::TracePush),
+           .takes_columns = true,
            .constants = constants,
            .descriptors = mirrorSlots({{abi::kBindingReflected, DescriptorKind::kStorage}}),
            .debug_name = "reflect"}};
@@ -58,7 +59,7 @@ void MirrorPass::record(Commands commands, const ReflectedRows& rows) {
   descriptors.push_back(wholeBuffer(abi::kBindingReflected, rows.reflected));
   recordComputeBarrier(commands);
   reflect.recordDescriptors(commands, descriptors);
-  reflect.record(commands, rows.push, groupCount(rows.push.atlas_width_px), rows.row_count);
+  reflect.recordColumns(commands, rows.push, rows.columns, rows.row_count);
   recordComputeBarrier(commands);
 }
 
@@ -71,6 +72,7 @@ void MirrorPass::record(Commands commands, const Walk& walk, BandRows rows, cons
   record(commands, {.structure = walk.structure,
                     .job = walk.job,
                     .row_count = piece.row_count,
+                    .columns = groupsOf(part),
                     .push = push,
                     .params = params,
                     .reflected = slot.reflected()});

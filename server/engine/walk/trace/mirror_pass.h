@@ -6,6 +6,7 @@
 #include <span>
 
 #include "gpu/commands.h"
+#include "gpu/compute_pass.h"
 #include "gpu/pass_map.h"
 #include "picture/trace_job.h"
 #include "structure/structure_slot.h"
@@ -23,15 +24,17 @@ struct ReflectedTarget {
   uint64_t linear_address = 0;  // of TraceExtras::linear, changed too; 0 = not wanted
 };
 
-// Rows of a band of which each px is known: what it shows, and where its ray ended.
+// Rows of a band, or columns of them, of which each px is known: what it shows, and where its ray
+// ended.
 struct ReflectedRows {
   const StructureSlot& structure;  // whose shape mirrors
   const TraceJob& job;             // that reflects
   uint32_t row_count;
-  abi::TracePush push;  // of the walk and these rows, with the structure's own colour
+  GroupColumns columns;  // of invocations, px by px
+  abi::TracePush push;   // of the walk and these rows, with the structure's own colour
   // mirrorDescriptors() says which.
   std::span<const Descriptor> params;
-  const Buffer& reflected;  // abi::ReflectedLight per px of the band: that of the rows is written
+  const Buffer& reflected;  // abi::ReflectedLight per px of the band: that of these px is written
 };
 
 // The device must outlive it. Thread-safety: all methods may be called from any thread.
@@ -45,7 +48,7 @@ class MirrorPass {
   // Finds the light of these rows. Waits for the compute work before it; what follows may read what
   // is written.
   void record(Commands commands, const ReflectedRows& rows);
-  // The same of rows of a part of the slot's band.
+  // The same of a part of the slot's band.
   void record(Commands commands, const Walk& walk, BandRows rows, const BandPart& part,
               const TraceSlot& slot);
 

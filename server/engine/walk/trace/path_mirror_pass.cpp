@@ -67,6 +67,7 @@ ComputePass PathMirrorPass::makeTurnPass(const Device& device, const TurnVariant
   return {device,
           {.spirv = turn_paths_spirv,
            .push_bytes = sizeof(abi::TracePush),
+           .takes_columns = true,
            .constants = constants,
            .descriptors = mirrorSlots({{abi::kBindingPaths, DescriptorKind::kStorage}}),
            .debug_name = "turn paths"}};
@@ -80,6 +81,7 @@ ComputePass PathMirrorPass::makeWalkPass(const Device& device, const WalkVariant
   return {device,
           {.spirv = walk_paths_spirv,
            .push_bytes = sizeof(abi::TracePush),
+           .takes_columns = true,
            .constants = constants,
            .descriptors = mirrorSlots({{abi::kBindingPaths, DescriptorKind::kStorage},
                                        {abi::kBindingBand, DescriptorKind::kStorage}}),
@@ -90,6 +92,7 @@ ComputePass PathMirrorPass::makeMergePass(const Device& device, const std::monos
   return {device,
           {.spirv = merge_paths_spirv,
            .push_bytes = sizeof(abi::MergePathsPush),
+           .takes_columns = true,
            .descriptors = kMergeSlots,
            .debug_name = "merge paths"}};
 }
@@ -148,7 +151,6 @@ std::vector<PathMirrorPass::Piece> PathMirrorPass::describe(
 // through every source.
 void PathMirrorPass::recordBounce(Commands commands, std::span<Piece> pieces, const Rows& rows,
                                   const abi::MergePathsPush& push) {
-  const uint32_t width_px = push.atlas_width_px;
   bool is_first = true;
   for (Piece& piece : pieces) {
     piece.push.bounce = push.bounce;
@@ -157,23 +159,23 @@ void PathMirrorPass::recordBounce(Commands commands, std::span<Piece> pieces, co
     uint32_t& fill = piece.push.fill;
     fill = is_first ? fill | abi::kFillFirst : fill & ~abi::kFillFirst;
     piece.turn->recordDescriptors(commands, piece.turn_descriptors);
-    piece.turn->record(commands, piece.push, groupCount(width_px), rows.piece.row_count);
+    piece.turn->recordColumns(commands, piece.push, rows.columns, rows.piece.row_count);
     recordComputeBarrier(commands);
     is_first = false;
   }
   for (const Piece& piece : pieces) {
     piece.walk.recordDescriptors(commands, piece.walk_descriptors);
-    piece.walk.record(commands, piece.push, groupCount(width_px), rows.piece.row_count);
+    piece.walk.recordColumns(commands, piece.push, rows.columns, rows.piece.row_count);
   }
   recordComputeBarrier(commands);
   const uint64_t all = (uint64_t{1} << rows.job.walk_count) - 1;
-  join_.record(commands, rows.job, all, width_px * rows.piece.row_count, rows.answers, rows.slot);
+  join_.record(commands, rows.job, all, rows.answered, rows.answers, rows.slot);
   const Descriptor descriptors[] = {wholeBuffer(abi::kBindingAnswers, rows.slot.answers()),
                                     wholeBuffer(abi::kBindingPaths, rows.slot.paths()),
                                     wholeBuffer(abi::kBindingReflected, rows.slot.reflected())};
   const ComputePass& merge = merge_pass_.get({});
   merge.recordDescriptors(commands, descriptors);
-  merge.record(commands, push, groupCount(width_px), rows.piece.row_count);
+  merge.recordColumns(commands, push, rows.columns, rows.piece.row_count);
   recordComputeBarrier(commands);
 }
 
@@ -186,7 +188,9 @@ void PathMirrorPass::record(Commands commands, std::span<const StructureSlot* co
   abi::MergePathsPush push = mergePush(structures, job, answers, slot.counters());
   for (uint32_t row = part.first_row; row < part.end_row; row += answers.row_count) {
     const BandRows piece{rows.first_row + row, std::min(answers.row_count, part.end_row - row)};
-    const Rows piece_rows{job, piece, answers, slot};
+    const uint32_t end_answer = (piece.row_count - 1) * job.layout->size_px.width + part.end_column;
+    const Rows piece_rows{job,     piece, groupsOf(part), {part.first_column, end_answer},
+                          answers, slot};
     push.band_row = row;
     std::vector<Piece> pieces =
         describe(structures, piece_rows, {.sample = part.first_sample}, row);

@@ -55,10 +55,12 @@ class PathMirrorPass {
   };
   // Rows of a band as one of the walks takes them.
   struct Piece;
-  // Rows of a band, and how what all walks answer to them lies in memory.
+  // Rows of a band or columns of one, and how what all walks answer to them lies in memory.
   struct Rows {
     const TraceJob& job;
     BandRows piece;
+    GroupColumns columns;
+    AnswerSpan answered;
     AnswersLayout answers;
     const TraceSlot& slot;
   };

@@ -26,6 +26,13 @@ AnswersLayout answersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk
 // The same of reflected rays, where what is known of them takes its part of the memory.
 AnswersLayout reflectedAnswersLayout(uint32_t width_px, uint32_t row_count, uint32_t walk_count);
 
+// Answers [first, end) of each walk to px of a piece, row by row; they begin with a group of
+// invocations.
+struct AnswerSpan {
+  uint32_t first = 0;
+  uint32_t end = 0;
+};
+
 // Bytes of each buffer of TraceSlot; 0 = there is none.
 struct TraceSlotSizes {
   // Planes that the CPU reads; where it does not share the device's memory, there are two of each.

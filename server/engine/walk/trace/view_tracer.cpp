@@ -122,7 +122,7 @@ void ViewTracer::recordAfter(Commands commands, const StructureSlot& structure, 
   const bool is_middle = job.hasLens() && !rays.through_lens;
   const bool gathers = gathersOnDevice(job, structure);
   if (is_middle || gathers) recordComputeBarrier(commands);
-  if (is_middle || part.end_row < rows.row_count) return;
+  if (is_middle || !part.ends_band) return;
   if (gathers) {
     const MetRound round = metRound(rays.sample, job.sample_count);
     if (rays.sample + 1 == round.end) {
@@ -144,7 +144,7 @@ void ViewTracer::recordReflections(Commands commands,
   } else {
     path_mirror_.record(commands, structures, job, rows, part, slot);
   }
-  if (part.end_row < rows.row_count) return;
+  if (!part.ends_band) return;
   mirrored_light_.record(commands, job,
                          {.rows = rows,
                           .reflected = slot.reflected(),
