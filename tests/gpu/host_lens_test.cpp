@@ -131,7 +131,7 @@ TEST_F(HostLens, isTheSameInPieces) {
     for (uint32_t row = 0; row < shared->size_px.height; row += row_count) {
       const uint32_t count = std::min(row_count, shared->size_px.height - row);
       gatherer.gather(host, job,
-                      {.rows = {row, count},
+                      {.piece = {{row, count}, 0, shared->size_px.width},
                        .color = std::span(color).subspan(row * width_px, count * width_px),
                        .linear = {}});
     }
@@ -141,15 +141,37 @@ TEST_F(HostLens, isTheSameInPieces) {
   EXPECT_NE(whole, middle);
   EXPECT_EQ(gatheredIn(8), whole);
   EXPECT_EQ(gatheredIn(13), whole);
-  // The same order as for a strip: all rows, once.
-  uint32_t row = 0;
-  const BandRows all = {0, shared->size_px.height};
-  for (const BandRows& piece : gatheredPieces(*shared, all, UINT64_MAX)) {
-    EXPECT_EQ(piece.first_row, row);
-    ASSERT_GT(piece.row_count, 0u);
-    row += piece.row_count;
+  // All px once, in pieces of a strip.
+  for (const uint64_t ray_count : {uint64_t{1}, uint64_t{20'000}, UINT64_MAX}) {
+    std::vector<uint32_t> counts(shared->size_px.area(), 0);
+    std::vector<uint32_t> color = middle;
+    BandGatherer gatherer;
+    for (const GatheredPiece& piece :
+         gatheredPieces(*shared, {0, shared->size_px.height}, ray_count)) {
+      const uint32_t end_row = piece.rows.first_row + piece.rows.row_count;
+      for (size_t row = piece.rows.first_row; row < end_row; ++row) {
+        for (size_t x = piece.first_column; x < piece.end_column; ++x) ++counts[row * width_px + x];
+      }
+      gatherer.gather(host, job,
+                      {.piece = piece,
+                       .color = std::span(color).subspan(piece.rows.first_row * width_px,
+                                                         piece.rows.row_count * width_px),
+                       .linear = {}});
+    }
+    EXPECT_EQ(std::ranges::count(counts, 1U), ptrdiff_t(counts.size()));
+    EXPECT_EQ(color, whole) << ray_count;
   }
-  EXPECT_EQ(row, shared->size_px.height);
+}
+
+// A row of blocks of a wide atlas takes long with many points.
+TEST(GatheredPieces, haveBoundedWorkHoweverWideAnAtlasIs) {
+  AtlasLayout layout{.size_px = {16384, 64}, .tile_size_px = {16384, 64}};
+  layout.lens = LensRays{.walked_count = kWalkedSamplesMax, .gathered_count = kGatheredSamplesMax};
+  constexpr uint64_t kRays = 100'000;
+  for (const GatheredPiece& piece : gatheredPieces(layout, {0, 64}, kRays)) {
+    const uint64_t px = uint64_t{piece.rows.row_count} * (piece.end_column - piece.first_column);
+    EXPECT_LE(px * layout.lens->pointCount(), kRays);
+  }
 }
 
 }  // namespace

@@ -73,13 +73,13 @@ void OfflineRenderer::traceBand(const TraceJob& job, BandRows rows, TraceSlot& s
 
 void OfflineRenderer::gatherLens(const TraceJob& job, BandRows rows, TraceSlot& slot) {
   const HostStructure structure = hostStructure(structure_->firstPart());
-  const std::vector<BandRows> pieces =
+  const std::vector<GatheredPiece> pieces =
       gatheredPieces(*job.layout, rows, std::numeric_limits<uint64_t>::max());
-  const uint32_t first_row = pieces.front().first_row;
+  const uint32_t first_row = pieces.front().rows.first_row;
   workers_.forEach(uint32_t(pieces.size()), [&](uint32_t index, uint32_t worker) {
-    const BandRows piece = pieces[index];
+    const GatheredPiece& piece = pieces[index];
     gatherers_[worker].gather(structure, job,
-                              bandOf(slot, *job.layout, piece, piece.first_row - first_row));
+                              bandOf(slot, *job.layout, piece, piece.rows.first_row - first_row));
   });
 }
 

@@ -43,8 +43,9 @@ uint64_t gatheredRays(const TraceJob& picture, uint64_t row_count) {
   return row_count * picture.layout->size_px.width * picture.layout->lens->pointCount();
 }
 
-// Rows of the strip that threads gather the lens of, piece by piece.
-std::vector<BandRows> gatheredPieces(const TraceJob& picture, BandRows rows, uint64_t ray_count) {
+// Pieces of the strip whose lens threads gather.
+std::vector<GatheredPiece> gatheredPieces(const TraceJob& picture, BandRows rows,
+                                          uint64_t ray_count) {
   if (!picture.gathers_on_host) return {};
   return gatheredPieces(*picture.layout, rows, ray_count);
 }
@@ -59,11 +60,11 @@ class WalkedStrip final : public StripWork {
                     strip, rows, structure, std::move(trace), std::move(gatherers), costs) {}
 
   void makePiece(uint32_t index) override {
-    const BandRows& piece = pieces_[index];
+    const GatheredPiece& piece = pieces_[index];
     std::unique_ptr<BandGatherer> gatherer = gatherers_->take();
     gatherer->gather(
         hostStructure(structure_), *picture_,
-        bandOf(trace_->slot, *picture_->layout, piece, piece.first_row - rows_.first_row));
+        bandOf(trace_->slot, *picture_->layout, piece, piece.rows.first_row - rows_.first_row));
     gatherers_->putBack(std::move(gatherer));
   }
 
@@ -85,14 +86,15 @@ class WalkedStrip final : public StripWork {
   }
 
  private:
-  WalkedStrip(std::vector<BandRows> pieces, PicturePtr picture, uint32_t strip, BandRows rows,
+  WalkedStrip(std::vector<GatheredPiece> pieces, PicturePtr picture, uint32_t strip, BandRows rows,
               const StructureSlot& structure, std::shared_ptr<StripTrace> trace,
               std::shared_ptr<GathererShelf> gatherers, std::shared_ptr<WalkCosts> costs)
       : StripWork({.first_strip = strip,
                    .piece_count = uint32_t(pieces.size()),
-                   .piece_ns = pieces.empty() ? 0
-                                              : costs->on_host.predictNs(gatheredRays(
-                                                    *picture, rows.row_count / pieces.size()))}),
+                   .piece_ns = pieces.empty()
+                                   ? 0
+                                   : costs->on_host.predictNs(
+                                         gatheredRays(*picture, rows.row_count) / pieces.size())}),
         pieces_(std::move(pieces)),
         picture_(std::move(picture)),
         rows_(rows),
@@ -101,7 +103,7 @@ class WalkedStrip final : public StripWork {
         gatherers_(std::move(gatherers)),
         costs_(std::move(costs)) {}
 
-  const std::vector<BandRows> pieces_;
+  const std::vector<GatheredPiece> pieces_;
   const PicturePtr picture_;
   const BandRows rows_;
   const StructureSlot& structure_;

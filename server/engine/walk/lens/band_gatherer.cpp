@@ -22,7 +22,7 @@ float besideOf(uint32_t point, double step) {
   return float(place - std::floor(place) - 0.5);
 }
 
-// Rays that are gathered at once, but for whole rows of blocks: about a millisecond of a core.
+// Rays that are gathered at once, but for whole blocks: about a millisecond of a core.
 constexpr uint32_t kGatheredRays = 160'000;
 
 // The first row after this one with which blocks begin.
@@ -56,6 +56,10 @@ bool looksForward(const abi::ViewParams& view, SizePx tile_px) {
          isForward(tile_px.width, tile_px.height);
 }
 
+uint64_t rowRays(const AtlasLayout& layout) {
+  return uint64_t{layout.size_px.width} * layout.lens->pointCount();
+}
+
 void addLight(uint32_t texel, float count, uint32_t p, BlockLight& light) {
   const std::array<float, 256>& of_codes = lightOfCodes();
   light.red[p] += count * of_codes[texel & 255];
@@ -64,14 +68,20 @@ void addLight(uint32_t texel, float count, uint32_t p, BlockLight& light) {
   light.count[p] += count;
 }
 
-BandRows firstPiece(const AtlasLayout& layout, BandRows rows, uint64_t ray_count_max) {
+// The first of these rows that have so many rays, or one row of blocks.
+BandRows firstRows(const AtlasLayout& layout, BandRows rows, uint64_t ray_count) {
   const uint32_t end = rows.first_row + rows.row_count;
-  const uint64_t row_rays = uint64_t{layout.size_px.width} * layout.lens->pointCount();
-  const uint64_t ray_count = std::min<uint64_t>(kGatheredRays, ray_count_max);
-  const uint64_t enough = std::max<uint64_t>(ray_count / row_rays, 1);
+  const uint64_t enough = std::max<uint64_t>(ray_count / rowRays(layout), 1);
   uint32_t row = rows.first_row;
   while (row < end && row - rows.first_row < enough) row = nextBlockRow(layout, row);
   return {rows.first_row, std::min(row, end) - rows.first_row};
+}
+
+// Columns of pieces that have so many rays in so many rows, or a column of blocks; wider than any
+// atlas where those have fewer.
+uint32_t columnsOfPiece(const AtlasLayout& layout, uint32_t row_count, uint64_t ray_count) {
+  const uint64_t column_rays = uint64_t{row_count} * layout.lens->pointCount();
+  return uint32_t(std::clamp<uint64_t>(ray_count / column_rays, kSide_px, 1U << 16));
 }
 
 }  // namespace
@@ -83,24 +93,31 @@ bool gathersOnHost(bool is_in_reach, const TraceJob& job) {
          });
 }
 
-std::vector<BandRows> gatheredPieces(const AtlasLayout& layout, BandRows rows,
-                                     uint64_t ray_count_max) {
-  std::vector<BandRows> pieces;
+std::vector<GatheredPiece> gatheredPieces(const AtlasLayout& layout, BandRows rows,
+                                          uint64_t ray_count_max) {
+  const uint64_t ray_count = std::clamp<uint64_t>(ray_count_max, 1, kGatheredRays);
+  const uint32_t width_px = layout.size_px.width;
+  std::vector<GatheredPiece> pieces;
   while (rows.row_count > 0) {
-    pieces.push_back(firstPiece(layout, rows, ray_count_max));
-    rows.first_row += pieces.back().row_count;
-    rows.row_count -= pieces.back().row_count;
+    const BandRows first = firstRows(layout, rows, ray_count);
+    const uint32_t columns = columnsOfPiece(layout, first.row_count, ray_count);
+    for (uint32_t column = 0; column < width_px; column += columns) {
+      pieces.push_back({first, column, std::min(column + columns, width_px)});
+    }
+    rows.first_row += first.row_count;
+    rows.row_count -= first.row_count;
   }
   return pieces;
 }
 
-GatheredBand bandOf(TraceSlot& slot, const AtlasLayout& layout, BandRows rows, uint32_t first_row) {
+GatheredBand bandOf(TraceSlot& slot, const AtlasLayout& layout, const GatheredPiece& piece,
+                    uint32_t first_row) {
   const size_t width_px = layout.size_px.width;
   const auto rowsOf = [&](auto plane, size_t per_px) {
     if (plane.empty()) return plane;
-    return plane.subspan(first_row * width_px * per_px, rows.row_count * width_px * per_px);
+    return plane.subspan(first_row * width_px * per_px, piece.rows.row_count * width_px * per_px);
   };
-  return {.rows = rows,
+  return {.piece = piece,
           .color = rowsOf(slot.mutableColor(), 1),
           .linear = rowsOf(slot.mutableLinear(), 4)};
 }
@@ -112,6 +129,8 @@ struct BandGatherer::Tile {
   int64_t first_row = 0;  // in the band: of the tile's first row
   uint32_t first_y = 0;   // of the tile: rows [first, end) are in the band
   uint32_t end_y = 0;
+  uint32_t begin_x = 0;  // blocks of the tile that begin in [begin, end) are gathered
+  uint32_t end_x = 0;
 };
 
 void BandGatherer::takePoints(const AtlasLayout& layout) {
@@ -137,24 +156,31 @@ void BandGatherer::gather(const HostStructure& structure, const TraceJob& job,
   takePoints(layout);
   const SizePx tile_px = layout.tile_size_px;
   const std::span<const abi::ViewParams> tiles = job.tilesOf(0);
-  const int64_t first = band.rows.first_row;
-  const int64_t end = first + band.rows.row_count;
+  const int64_t first = band.piece.rows.first_row;
+  const int64_t end = first + band.piece.rows.row_count;
   for (uint32_t index = 0; index < tiles.size(); ++index) {
     const int64_t tile_row =
         int64_t{layout.padding_top_px} + int64_t{index / layout.columns} * tile_px.height;
     const auto inTile = [&](int64_t row) {
       return uint32_t(std::clamp<int64_t>(row - tile_row, 0, tile_px.height));
     };
-    const Tile tile{.view = tiles[index],
-                    .first_x = index % layout.columns * tile_px.width,
-                    .first_row = tile_row - first,
-                    .first_y = inTile(first),
-                    .end_y = inTile(end)};
+    const uint32_t tile_column = index % layout.columns * tile_px.width;
+    const auto inTileRow = [&](uint32_t column) {
+      return std::clamp(column, tile_column, tile_column + tile_px.width) - tile_column;
+    };
+    const Tile tile{
+        .view = tiles[index],
+        .first_x = tile_column,
+        .first_row = tile_row - first,
+        .first_y = inTile(first),
+        .end_y = inTile(end),
+        .begin_x = (inTileRow(band.piece.first_column) + kSide_px - 1) / kSide_px * kSide_px,
+        .end_x = inTileRow(band.piece.end_column)};
     // Those that show depth have no lens.
     if (tile.view.is_used == 0 || tile.view.lens_px_m.x == 0) continue;
     if (tile.first_y == tile.end_y) continue;
     for (uint32_t y = tile.first_y / kSide_px * kSide_px; y < tile.end_y; y += kSide_px) {
-      for (uint32_t x = 0; x < tile_px.width; x += kSide_px) {
+      for (uint32_t x = tile.begin_x; x < tile.end_x; x += kSide_px) {
         gatherBlock(structure, job, tile, {x, y}, band);
       }
     }

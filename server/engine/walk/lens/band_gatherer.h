@@ -19,24 +19,32 @@ namespace viewloom {
 // has a second stage whose rays are never walked, and all views look where the source looks.
 bool gathersOnHost(bool is_in_reach, const TraceJob& job);
 
+// Blocks in these rows of an atlas whose first px are in columns [first_column, end_column) of it.
+struct GatheredPiece {
+  BandRows rows;
+  uint32_t first_column = 0;
+  uint32_t end_column = 0;
+};
+
 // These rows of an atlas in pieces, each to be gathered at once. A piece has whole blocks where
 // that can be, and about kGatheredRays or `ray_count_max` rays at most, whichever is less.
-std::vector<BandRows> gatheredPieces(const AtlasLayout& layout, BandRows rows,
-                                     uint64_t ray_count_max);
+std::vector<GatheredPiece> gatheredPieces(const AtlasLayout& layout, BandRows rows,
+                                          uint64_t ray_count_max);
 
-// Rows of an atlas.
+// Rows of an atlas, of which a piece is gathered.
 struct GatheredBand {
-  BandRows rows;
+  GatheredPiece piece;
   std::span<uint32_t> color;  // uint32_t[rows][width]: R, G, B, 255 in memory order
   std::span<float> linear;    // float[rows][width][4], sRGB-encoded; empty where it is not wanted
 };
 
-// These rows of the atlas in the slot of a band of it, `first_row` rows below its first. The device
+// This piece of the atlas in the slot of a band of it, `first_row` rows below its first. The device
 // is done with it.
-GatheredBand bandOf(TraceSlot& slot, const AtlasLayout& layout, BandRows rows, uint32_t first_row);
+GatheredBand bandOf(TraceSlot& slot, const AtlasLayout& layout, const GatheredPiece& piece,
+                    uint32_t first_row);
 
-// Keeps what a block needs on its way. Thread-safety: none; one a thread. Several may have rows of
-// one band.
+// Keeps what a block needs on its way. Thread-safety: none; one a thread. Several may have pieces
+// of one band.
 class BandGatherer {
  public:
   // `band` holds what the middle rays of the px see, and gets what all see. The job gathers on the
