@@ -40,7 +40,7 @@ class ComputePassTest : public GpuTest {
     return {device(),
             {.spirv = scale_floats_spirv,
              .push_bytes = sizeof(ScalePush),
-             .takes_columns = true,
+             .takes_parts = true,
              .constants = factor_and_offset,
              .debug_name = "scale floats"}};
   }

@@ -158,7 +158,8 @@ std::vector<float> MirrorStage::picture() {
                                  {.rows = {0, layout().size_px.height},
                                   .reflected = reflected_,
                                   .rgba = rgba_,
-                                  .linear_address = linear_.target().address()});
+                                  .linear_address = linear_.target().address(),
+                                  .span = {0, layout().size_px.height}});
   recordComputeToTransfer(commands);
   linear_.recordReadback(commands, size_bytes);
   recordTransferToHost(commands);

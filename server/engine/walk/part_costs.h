@@ -11,15 +11,28 @@
 namespace viewloom {
 
 // Kinds of rays: walked through one structure, through several, and through a lens; reflected;
-// gathered in the second stage of a lens. Means of colour count texels instead of rays.
-enum class RayKind : uint8_t { kWalked, kMerged, kThroughLens, kReflected, kGathered, kMeans };
+// gathered in the second stage of a lens. Others count something else: answers of several
+// structures that are merged apart from their walks, px of samples that are settled, and texels of
+// means of colour.
+enum class RayKind : uint8_t {
+  kWalked,
+  kMerged,
+  kThroughLens,
+  kReflected,
+  kGathered,
+  kAnswers,
+  kSettled,
+  kMeans
+};
 
 // Thread-safety: as CostEstimate.
 class PartCosts {
  public:
-  // A ray is taken to cost that much until something was measured.
-  explicit PartCosts(double start_ns_per_ray)
-      : estimates_(all(start_ns_per_ray, std::make_index_sequence<kKindCount>())) {}
+  // A ray is taken to cost that much until something was measured, and whatever else is counted
+  // that much.
+  PartCosts(double start_ns_per_ray, double start_ns_of_others)
+      : estimates_(
+            all(start_ns_per_ray, start_ns_of_others, std::make_index_sequence<kKindCount>())) {}
 
   CostEstimate& operator[](RayKind kind) { return estimates_[size_t(kind)]; }
 
@@ -27,8 +40,9 @@ class PartCosts {
   static constexpr size_t kKindCount = size_t(RayKind::kMeans) + 1;
 
   template <size_t... kKinds>
-  static std::array<CostEstimate, kKindCount> all(double start_ns, std::index_sequence<kKinds...>) {
-    return {((void)kKinds, CostEstimate(start_ns))...};
+  static std::array<CostEstimate, kKindCount> all(double ray_ns, double other_ns,
+                                                  std::index_sequence<kKinds...>) {
+    return {CostEstimate(kKinds < size_t(RayKind::kAnswers) ? ray_ns : other_ns)...};
   }
 
   std::array<CostEstimate, kKindCount> estimates_;

@@ -29,8 +29,13 @@ class WalkedFramePreparer final : public FramePreparer {
 WalkCosts startCosts(const Device& device) {
   constexpr double kSoftwareRay_ns = 2000;
   constexpr double kHardwareRay_ns = 5;
+  // Answers, px and texels take some arithmetic each, and no walk.
+  constexpr double kSoftwareOther_ns = 100;
+  constexpr double kHardwareOther_ns = 1;
   constexpr double kGatheredRay_ns = 20;
-  return {.on_device = PartCosts(device.info().is_software ? kSoftwareRay_ns : kHardwareRay_ns),
+  const bool is_software = device.info().is_software;
+  return {.on_device = PartCosts(is_software ? kSoftwareRay_ns : kHardwareRay_ns,
+                                 is_software ? kSoftwareOther_ns : kHardwareOther_ns),
           .on_host = CostEstimate(kGatheredRay_ns)};
 }
 

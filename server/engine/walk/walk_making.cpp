@@ -208,13 +208,14 @@ MakingStep WalkMaking::stepMeans() {
 
 MakingStep WalkMaking::stepPart() {
   const BandRows rows = order_.strips.rowsOf(strip_);
-  if (!parts_) parts_.emplace(*picture_, rows);
+  if (!parts_) parts_.emplace(ViewTracer::partsOf(structures_, *picture_, rows));
   const RayKind kind = kindOf(parts_->kind());
   const uint64_t ray_count_max = std::min(kPartRays, costs_->on_device[kind].unitsFor(kPiece_ns));
   const BandPart part = parts_->take(ray_count_max);
   CommandRecorder& recorder = nextRecorder();
   tools_.tracer.recordPart(recorder.begin(), structures_, *picture_, rows, part, trace_->slot);
-  MakingStep step{.predicted_ns = submit(recorder, kind, part.ray_count)};
+  const uint64_t ray_count = ViewTracer::rayCount(structures_, *picture_, part);
+  MakingStep step{.predicted_ns = submit(recorder, kind, ray_count)};
   if (!part.is_last) return step;
   parts_.reset();
   handOn(last_value_);
@@ -223,7 +224,9 @@ MakingStep WalkMaking::stepPart() {
 }
 
 RayKind WalkMaking::kindOf(PartKind kind) const {
+  if (kind == PartKind::kMerge) return RayKind::kAnswers;
   if (kind == PartKind::kReflect) return RayKind::kReflected;
+  if (kind == PartKind::kSettle) return RayKind::kSettled;
   if (kind == PartKind::kGather) return RayKind::kGathered;
   if (picture_->walk_count > 1) return RayKind::kMerged;
   return picture_->hasLens() && !picture_->gathers_on_host ? RayKind::kThroughLens

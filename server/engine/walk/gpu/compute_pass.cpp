@@ -109,7 +109,7 @@ vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& 
                                                 .pName = "main",
                                                 .pSpecializationInfo = &specialization};
   return {device.handle(), device.pipelineCache(),
-          vk::ComputePipelineCreateInfo{.flags = options.takes_columns
+          vk::ComputePipelineCreateInfo{.flags = options.takes_parts
                                                      ? vk::PipelineCreateFlagBits::eDispatchBase
                                                      : vk::PipelineCreateFlags(),
                                         .stage = stage,
@@ -121,7 +121,7 @@ vk::raii::Pipeline makePipeline(const Device& device, const ComputePassOptions& 
 ComputePass::ComputePass(const Device& device, const ComputePassOptions& options)
     : device_(&device),
       push_bytes_(options.push_bytes),
-      takes_columns_(options.takes_columns),
+      takes_parts_(options.takes_parts),
       slots_(hide(makeSlots(device, options.descriptors))),
       layout_(hide(makeLayout(device, options.push_bytes, **slots_))),
       pipeline_(hide(makePipeline(device, options, **layout_))) {
@@ -175,10 +175,18 @@ void ComputePass::record(Commands commands, std::span<const std::byte> push, uin
 
 void ComputePass::recordColumns(Commands commands, std::span<const std::byte> push,
                                 GroupColumns columns, uint32_t groups_y) const {
-  VIEWLOOM_CHECK(takes_columns_ && columns.first < columns.end);
+  VIEWLOOM_CHECK(takes_parts_ && columns.first < columns.end);
   recordState(commands, push);
   vk::CommandBuffer(commands.handle())
       .dispatchBase(columns.first, 0, 0, columns.end - columns.first, groups_y, 1);
+}
+
+void ComputePass::recordRows(Commands commands, std::span<const std::byte> push, uint32_t groups_x,
+                             GroupRows rows) const {
+  VIEWLOOM_CHECK(takes_parts_ && rows.first < rows.end);
+  recordState(commands, push);
+  vk::CommandBuffer(commands.handle())
+      .dispatchBase(0, rows.first, 0, groups_x, rows.end - rows.first, 1);
 }
 
 void ComputePass::recordIndirect(Commands commands, std::span<const std::byte> push,

@@ -26,10 +26,16 @@ struct GroupColumns {
   uint32_t end = 0;
 };
 
+// Rows [first, end) of groups.
+struct GroupRows {
+  uint32_t first = 0;
+  uint32_t end = 0;
+};
+
 struct ComputePassOptions {
   std::span<const uint32_t> spirv;
-  uint32_t push_bytes = 0;     // at most DeviceLimits::push_bytes_max, a multiple of 4
-  bool takes_columns = false;  // whether recordColumns() may be called
+  uint32_t push_bytes = 0;   // at most DeviceLimits::push_bytes_max, a multiple of 4
+  bool takes_parts = false;  // whether recordColumns() and recordRows() may be called
   // All that the kernel has; the two of lib/memory.glsl may be left out, and then are false.
   std::span<const KernelConstant> constants = {};
   std::span<const DescriptorSlot> descriptors = {};
@@ -52,6 +58,9 @@ class ComputePass {
   // but gl_NumWorkGroups counts them.
   void recordColumns(Commands commands, std::span<const std::byte> push, GroupColumns columns,
                      uint32_t groups_y) const;
+  // The same of these rows of the groups alone.
+  void recordRows(Commands commands, std::span<const std::byte> push, uint32_t groups_x,
+                  GroupRows rows) const;
 
   // The same, with as many groups as three words of a buffer say when the device gets there.
   void recordIndirect(Commands commands, std::span<const std::byte> push, const Buffer& groups,
@@ -82,12 +91,19 @@ class ComputePass {
     recordColumns(commands, std::as_bytes(std::span(&push, 1)), columns, groups_y);
   }
 
+  template <typename Push>
+  requires std::is_trivially_copyable_v<Push> && std::is_class_v<Push> &&
+      (!std::is_convertible_v<Push, std::span<const std::byte>>)void recordRows(
+          Commands commands, const Push& push, uint32_t groups_x, GroupRows rows) const {
+    recordRows(commands, std::as_bytes(std::span(&push, 1)), groups_x, rows);
+  }
+
  private:
   void recordState(Commands commands, std::span<const std::byte> push) const;
 
   const Device* device_;
   uint32_t push_bytes_;
-  bool takes_columns_;
+  bool takes_parts_;
   Hidden<vk::raii::DescriptorSetLayout> slots_;
   Hidden<vk::raii::PipelineLayout> layout_;
   Hidden<vk::raii::Pipeline> pipeline_;

@@ -2,6 +2,7 @@
 #include "trace/band_rays.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "shared/lens_abi.h"
 #include "trace/band_params.h"
@@ -45,6 +46,10 @@ std::vector<BandRays> raysOfPart(const TraceJob& job, const StructureSlot& first
                     .wanted = (sample == 0 && !has_middle_apart ? wanted : 0) |
                               (job.reflects() ? abi::kWantRecords : 0)});
   }
+  if (part.paths == RayPaths::kAll) return rays;
+  std::erase_if(rays, [&](const BandRays& some) {
+    return some.through_lens != (part.paths == RayPaths::kThroughLens);
+  });
   return rays;
 }
 

@@ -17,6 +17,12 @@ struct RowSpan {
   uint32_t end = 0;
 };
 
+// Px [first, end) of each of those rows.
+struct ColumnSpan {
+  uint32_t first = 0;
+  uint32_t end = 0;
+};
+
 // One ray of each px.
 struct BandRays {
   uint32_t sample = 0;

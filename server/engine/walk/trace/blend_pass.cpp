@@ -31,6 +31,7 @@ ComputePass BlendPass::makePass(const Device& device, const std::monostate&) {
   return {device,
           {.spirv = blend_samples_spirv,
            .push_bytes = sizeof(abi::BlendPush),
+           .takes_parts = true,
            .descriptors = kBlendSlots,
            .debug_name = "blend samples"}};
 }
@@ -47,12 +48,17 @@ void BlendPass::record(Commands commands, const BlendTarget& target,
   const Descriptor bindings[] = {wholeBuffer(abi::kBindingSample, target.sample),
                                  wholeBuffer(abi::kBindingSums, target.sums),
                                  wholeBuffer(abi::kBindingBand, target.band)};
-  const ComputePass& blend = pass_.get({});
-  recordComputeBarrier(commands);
-  blend.recordDescriptors(commands, bindings);
   const uint32_t groups = groupCount(target.px_count);
-  blend.record(commands, push, std::min(groups, kGroupsPerRow),
-               (groups + kGroupsPerRow - 1) / kGroupsPerRow);
+  const auto rowAt = [&](uint32_t px) {
+    return px == target.px_count ? (groups + kGroupsPerRow - 1) / kGroupsPerRow
+                                 : px / abi::kTraceGroupSize / kGroupsPerRow;
+  };
+  const GroupRows rows{rowAt(target.first_px), rowAt(target.end_px)};
+  recordComputeBarrier(commands);
+  if (rows.first == rows.end) return;
+  const ComputePass& blend = pass_.get({});
+  blend.recordDescriptors(commands, bindings);
+  blend.recordRows(commands, push, std::min(groups, kGroupsPerRow), rows);
   recordComputeBarrier(commands);
 }
 

@@ -18,6 +18,10 @@ struct BlendTarget {
   const Buffer& band;           // as `sample`
   uint64_t linear_address = 0;  // of TraceExtras::linear; 0 = not wanted
   uint32_t px_count = 0;
+  // Px that are blended; where spans follow each other, all of them once. Those at the end may be
+  // left to the next span.
+  uint32_t first_px = 0;
+  uint32_t end_px = 0;
 };
 
 // The device must outlive it. Thread-safety: all methods may be called from any thread.

@@ -20,7 +20,7 @@ ComputePass JoinPass::makePass(const Device& device, const std::monostate&) {
   return {device,
           {.spirv = join_faces_spirv,
            .push_bytes = sizeof(abi::JoinPush),
-           .takes_columns = true,
+           .takes_parts = true,
            .descriptors = kJoinSlots,
            .debug_name = "join faces"}};
 }

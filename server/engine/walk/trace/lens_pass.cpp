@@ -77,6 +77,7 @@ ComputePass LensPass::makeListPass(const Device& device, const ListVariant& vari
   return {device,
           {.spirv = list_met_spirv,
            .push_bytes = sizeof(abi::GatherPush),
+           .takes_parts = true,
            .constants = constants,
            .descriptors = kListSlots,
            .debug_name = "list met sheets"}};
@@ -91,7 +92,7 @@ ComputePass LensPass::makeGatherPass(const Device& device, const GatherVariant& 
   return {device,
           {.spirv = gather_lens_spirv,
            .push_bytes = sizeof(abi::GatherPush),
-           .takes_columns = true,
+           .takes_parts = true,
            .constants = constants,
            .descriptors = kGatherSlots,
            .debug_name = "gather lens"}};
@@ -114,12 +115,18 @@ void LensPass::addMissing(const StructureSlot& structure, const TraceJob& job, b
 }
 
 void LensPass::recordLists(Commands commands, const StructureSlot& structure, const TraceJob& job,
-                           BandRows rows, const TraceSlot& slot, MetRound round) {
+                           BandRows rows, RowSpan span, const TraceSlot& slot, MetRound round) {
   const MetBlocks blocks = metBlocks(*job.layout, rows);
-  recordComputeToTransfer(commands);
-  commands.fill(slot.incomplete(), 0, sizeof(abi::IncompleteHead), 0);
-  recordTransferToCompute(commands);
-  if (blocks.row_count == 0) return;
+  if (span.first == 0) {
+    recordComputeToTransfer(commands);
+    commands.fill(slot.incomplete(), 0, sizeof(abi::IncompleteHead), 0);
+    recordTransferToCompute(commands);
+  }
+  const auto rowAt = [&](uint64_t row) {
+    return uint32_t(row * blocks.row_count / rows.row_count);
+  };
+  const GroupRows block_rows{rowAt(span.first), rowAt(span.end)};
+  if (block_rows.first == block_rows.end) return;
   const ComputePass& list = list_passes_.get({structure.readsByAddress()});
   const Descriptor descriptors[] = {structure.structure().asTexels(abi::kBindingStructure),
                                     slot.params().of(job, 0, 0).front(),
@@ -127,8 +134,8 @@ void LensPass::recordLists(Commands commands, const StructureSlot& structure, co
                                     wholeBuffer(abi::kBindingMetLists, slot.metLists()),
                                     wholeBuffer(abi::kBindingIncomplete, slot.incomplete())};
   list.recordDescriptors(commands, descriptors);
-  list.record(commands, describeGather(structure, nullptr, job, {rows, 0}, round),
-              groupCount(blocks.per_row), blocks.row_count);
+  list.recordRows(commands, describeGather(structure, nullptr, job, {rows, 0}, round),
+                  groupCount(blocks.per_row), block_rows);
   recordComputeBarrier(commands);
 }
 

@@ -11,6 +11,7 @@
 #include "picture/trace_job.h"
 #include "structure/structure_slot.h"
 #include "trace/band_parts.h"
+#include "trace/band_rays.h"
 #include "trace/mean_color_pass.h"
 #include "trace/met_blocks.h"
 #include "trace/trace_slot.h"
@@ -29,10 +30,11 @@ class LensPass {
   // Kernels that the following need.
   void addMissing(const StructureSlot& structure, const TraceJob& job, bool wants_linear,
                   MissingKernels& missing);
-  // Lists what a round of rays met, and the blocks that are not complete by it. Waits for the
-  // compute work before it, and what follows waits for it.
+  // Lists what a round of rays met in some rows of a band, and the blocks that are not complete by
+  // it. Spans come from the top down: the first one empties the list. Waits for the compute work
+  // before it, and what follows waits for it.
   void recordLists(Commands commands, const StructureSlot& structure, const TraceJob& job,
-                   BandRows rows, const TraceSlot& slot, MetRound round);
+                   BandRows rows, RowSpan span, const TraceSlot& slot, MetRound round);
   // Gathers rows of the slot's band, once all rounds are listed. Waits as above.
   void record(Commands commands, const StructureSlot& structure, const TraceJob& job, BandRows rows,
               const BandPart& part, const TraceSlot& slot);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <vector>
 
 #include "gpu/commands.h"
 #include "picture/ray_sources.h"
@@ -66,6 +68,7 @@ ComputePass MergePass::makePass(const Device& device, const Variant& variant) {
   return {device,
           {.spirv = merge_sources_spirv,
            .push_bytes = sizeof(abi::MergePush),
+           .takes_parts = true,
            .constants = constants,
            .descriptors = kMergeSlots,
            .debug_name = "merge sources"}};
@@ -76,9 +79,9 @@ MergePass::Variant MergePass::variantOf(const TraceJob& job, const BandRays& ray
 }
 
 uint64_t MergePass::walksOf(std::span<const StructureSlot* const> structures, const TraceJob& job,
-                            const BandRays& rays) {
+                            const BandRays& rays, Walks of) {
   uint64_t walks = 0;
-  for (uint32_t walk = 0; walk < job.walk_count; ++walk) {
+  for (uint32_t walk = of.first; walk < of.end; ++walk) {
     const StructureSlot& structure = *structures[walk];
     const bool may_see = !structure.shape().is_cube_face ||
                          raysMayEnterFace(raysOf(job, walk, rays.sample),
@@ -90,7 +93,7 @@ uint64_t MergePass::walksOf(std::span<const StructureSlot* const> structures, co
 
 void MergePass::addMissing(std::span<const StructureSlot* const> structures, const TraceJob& job,
                            const BandRays& rays, MissingKernels& missing) {
-  const uint64_t walks = walksOf(structures, job, rays);
+  const uint64_t walks = walksOf(structures, job, rays, {0, job.walk_count});
   for (uint32_t walk = 0; walk < job.walk_count; ++walk) {
     if (hasBit(walks, walk)) walk_.addMissing({*structures[walk], job, walk, rays}, missing);
   }
@@ -98,41 +101,87 @@ void MergePass::addMissing(std::span<const StructureSlot* const> structures, con
   passes_.addMissing(variantOf(job, rays), missing);
 }
 
+struct MergePass::Piece {
+  std::span<const StructureSlot* const> structures;
+  const TraceJob& job;
+  const TraceSlot& slot;
+  AnswersLayout answers;
+  uint64_t walks;     // of walksOf()
+  BandRows rows;      // of the atlas
+  uint32_t band_row;  // of the first
+};
+
+uint64_t MergePass::rayCount(std::span<const StructureSlot* const> structures, const TraceJob& job,
+                             const BandPart& part) {
+  const uint64_t px_count =
+      uint64_t{part.end_row - part.first_row} * (part.end_column - part.first_column);
+  uint64_t ray_count = 0;
+  for (uint32_t sample = part.first_sample; sample < part.end_sample; ++sample) {
+    const uint64_t walks =
+        walksOf(structures, job, {.sample = sample}, {part.first_walk, part.end_walk});
+    ray_count += px_count * uint64_t(std::popcount(walks));
+  }
+  return ray_count;
+}
+
+void MergePass::recordWalks(Commands commands, const Piece& piece, const BandPart& part,
+                            const BandRays& rays) {
+  for (uint32_t walk = part.first_walk; walk < part.end_walk; ++walk) {
+    if (!hasBit(piece.walks, walk)) continue;
+    walk_.record(
+        commands, {*piece.structures[walk], piece.job, walk, rays}, piece.rows,
+        {.rows = {0, piece.rows.row_count}, .columns = {part.first_column, part.end_column}},
+        piece.slot, piece.slot.answersOf(walk, piece.answers));
+  }
+  recordComputeBarrier(commands);
+}
+
+void MergePass::recordMerge(Commands commands, const Piece& piece, const BandPart& part,
+                            const BandRays& rays) {
+  const TraceJob& job = piece.job;
+  const AtlasLayout& layout = *job.layout;
+  const uint32_t end_answer = (piece.rows.row_count - 1) * layout.size_px.width + part.end_column;
+  join_.record(commands, job, piece.walks, {part.first_column, end_answer}, piece.answers,
+               piece.slot);
+  // Beside the views is nothing.
+  GroupColumns columns = groupsOf(part);
+  columns.end = std::min(columns.end, groupCount(layout.tile_size_px.width * layout.columns));
+  if (columns.first >= columns.end) return;
+  const abi::MergePush push{.atlas_width_px = layout.size_px.width,
+                            .first_row = piece.rows.first_row,
+                            .band_row = piece.band_row,
+                            .tile_size_px = packSize(layout.tile_size_px),
+                            .tile_grid = packSize({layout.columns, layout.rows}),
+                            .padding_top_px = layout.padding_top_px,
+                            .fill = redFirst(job.background_rgb),
+                            .source_count = uint32_t(job.sources.size()),
+                            .answers_stride = piece.answers.stride,
+                            .first_walks = packFirstWalks(job)};
+  std::vector<Descriptor> descriptors = piece.slot.params().of(job, 0, rays.sample);
+  descriptors.push_back(wholeBuffer(abi::kBindingBand, piece.slot.sampleTarget(job)));
+  descriptors.push_back(wholeBuffer(abi::kBindingAnswers, piece.slot.answers()));
+  const ComputePass& merge = passes_.get(variantOf(job, rays));
+  merge.recordDescriptors(commands, descriptors);
+  merge.recordColumns(commands, push, columns, piece.rows.row_count);
+  recordComputeBarrier(commands);
+}
+
 // Piece by piece of the band.
 void MergePass::record(Commands commands, std::span<const StructureSlot* const> structures,
-                       const TraceJob& job, BandRows rows, RowSpan span, const BandRays& rays,
-                       const TraceSlot& slot) {
-  const AtlasLayout& layout = *job.layout;
-  const AnswersLayout answers = answersLayout(layout.size_px.width, rows.row_count, job.walk_count);
-  const uint64_t walks = walksOf(structures, job, rays);
-  const ComputePass& merge = passes_.get(variantOf(job, rays));
-  std::vector<Descriptor> descriptors = slot.params().of(job, 0, rays.sample);
-  descriptors.push_back(wholeBuffer(abi::kBindingBand, slot.sampleTarget(job)));
-  descriptors.push_back(wholeBuffer(abi::kBindingAnswers, slot.answers()));
-  for (uint32_t row = span.first; row < span.end; row += answers.row_count) {
-    const BandRows piece{rows.first_row + row, std::min(answers.row_count, span.end - row)};
-    for (uint32_t walk = 0; walk < job.walk_count; ++walk) {
-      if (!hasBit(walks, walk)) continue;
-      walk_.record(commands, {*structures[walk], job, walk, rays}, piece, {0, piece.row_count},
-                   slot, slot.answersOf(walk, answers));
-    }
-    recordComputeBarrier(commands);
-    join_.record(commands, job, walks, {.end = layout.size_px.width * piece.row_count}, answers,
-                 slot);
-    const abi::MergePush push{.atlas_width_px = layout.size_px.width,
-                              .first_row = piece.first_row,
-                              .band_row = row,
-                              .tile_size_px = packSize(layout.tile_size_px),
-                              .tile_grid = packSize({layout.columns, layout.rows}),
-                              .padding_top_px = layout.padding_top_px,
-                              .fill = redFirst(job.background_rgb),
-                              .source_count = uint32_t(job.sources.size()),
-                              .answers_stride = answers.stride,
-                              .first_walks = packFirstWalks(job)};
-    merge.recordDescriptors(commands, descriptors);
-    merge.record(commands, push, groupCount(layout.tile_size_px.width * layout.columns),
-                 piece.row_count);
-    recordComputeBarrier(commands);
+                       const TraceJob& job, BandRows rows, const BandPart& part,
+                       const BandRays& rays, const TraceSlot& slot) {
+  Piece piece{.structures = structures,
+              .job = job,
+              .slot = slot,
+              .answers = answersLayout(job.layout->size_px.width, rows.row_count, job.walk_count),
+              .walks = walksOf(structures, job, rays, {part.first_walk, part.end_walk}),
+              .rows = {},
+              .band_row = 0};
+  for (uint32_t row = part.first_row; row < part.end_row; row += piece.answers.row_count) {
+    piece.rows = {rows.first_row + row, std::min(piece.answers.row_count, part.end_row - row)};
+    piece.band_row = row;
+    if (part.walks()) recordWalks(commands, piece, part, rays);
+    if (part.merges) recordMerge(commands, piece, part, rays);
   }
 }
 

@@ -24,10 +24,14 @@ class MergePass {
   // Kernels that record() needs.
   void addMissing(std::span<const StructureSlot* const> structures, const TraceJob& job,
                   const BandRays& rays, MissingKernels& missing);
-  // One ray of each px of some rows of the slot's band. What follows may read the px.
+  // One ray of each px of a part of the slot's band, as far as the part has their walks, and merges
+  // them. What follows may read the px.
   void record(Commands commands, std::span<const StructureSlot* const> structures,
-              const TraceJob& job, BandRows rows, RowSpan span, const BandRays& rays,
+              const TraceJob& job, BandRows rows, const BandPart& part, const BandRays& rays,
               const TraceSlot& slot);
+  // Rays of such a part that are walked: there are none in faces of cube maps that none enters.
+  static uint64_t rayCount(std::span<const StructureSlot* const> structures, const TraceJob& job,
+                           const BandPart& part);
 
  private:
   struct Variant {
@@ -39,9 +43,19 @@ class MergePass {
 
   static ComputePass makePass(const Device& device, const Variant& variant);
   static Variant variantOf(const TraceJob& job, const BandRays& rays);
-  // The walks that may see something, a bit each.
+  // Those of walks [first, end) that may see something, a bit each.
+  struct Walks {
+    uint32_t first = 0;
+    uint32_t end = 0;
+  };
   static uint64_t walksOf(std::span<const StructureSlot* const> structures, const TraceJob& job,
-                          const BandRays& rays);
+                          const BandRays& rays, Walks of);
+  // Rows of a band whose answers lie in memory at once.
+  struct Piece;
+  void recordWalks(Commands commands, const Piece& piece, const BandPart& part,
+                   const BandRays& rays);
+  void recordMerge(Commands commands, const Piece& piece, const BandPart& part,
+                   const BandRays& rays);
 
   WalkPass& walk_;
   JoinPass& join_;

@@ -34,7 +34,7 @@ ComputePass MirrorPass::makeReflectPass(const Device& device, const Variant& var
   return {device,
           {.spirv = reflect_spirv,
            .push_bytes = sizeof(abi::TracePush),
-           .takes_columns = true,
+           .takes_parts = true,
            .constants = constants,
            .descriptors = mirrorSlots({{abi::kBindingReflected, DescriptorKind::kStorage}}),
            .debug_name = "reflect"}};
@@ -82,6 +82,7 @@ ComputePass MirroredLightPass::makePass(const Device& device, const std::monosta
   return {device,
           {.spirv = add_reflections_spirv,
            .push_bytes = sizeof(abi::AddReflectionsPush),
+           .takes_parts = true,
            .descriptors = kAddSlots,
            .debug_name = "add reflections"}};
 }
@@ -93,16 +94,16 @@ void MirroredLightPass::record(Commands commands, const TraceJob& job,
                                     wholeBuffer(abi::kBindingBand, target.rgba)};
   const ComputePass& add = pass_.get({});
   add.recordDescriptors(commands, descriptors);
-  add.record(commands,
-             abi::AddReflectionsPush{.linear = addressWords(target.linear_address),
-                                     .atlas_width_px = layout.size_px.width,
-                                     .first_row = target.rows.first_row,
-                                     .row_count = target.rows.row_count,
-                                     .tile_size_px = packSize(layout.tile_size_px),
-                                     .padding_top_px = layout.padding_top_px,
-                                     .is_filtered = !job.reflection->is_unfiltered,
-                                     .focal_px = focalOf(layout)},
-             groupCount(layout.size_px.width), target.rows.row_count);
+  add.recordRows(commands,
+                 abi::AddReflectionsPush{.linear = addressWords(target.linear_address),
+                                         .atlas_width_px = layout.size_px.width,
+                                         .first_row = target.rows.first_row,
+                                         .row_count = target.rows.row_count,
+                                         .tile_size_px = packSize(layout.tile_size_px),
+                                         .padding_top_px = layout.padding_top_px,
+                                         .is_filtered = !job.reflection->is_unfiltered,
+                                         .focal_px = focalOf(layout)},
+                 groupCount(layout.size_px.width), {target.span.first, target.span.end});
   recordComputeBarrier(commands);
 }
 

@@ -22,6 +22,7 @@ struct ReflectedTarget {
   const Buffer& reflected;      // abi::ReflectedLight per px
   const Buffer& rgba;           // changed
   uint64_t linear_address = 0;  // of TraceExtras::linear, changed too; 0 = not wanted
+  RowSpan span;                 // rows of the band that get it
 };
 
 // Rows of a band, or columns of them, of which each px is known: what it shows, and where its ray

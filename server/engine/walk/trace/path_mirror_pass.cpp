@@ -67,7 +67,7 @@ ComputePass PathMirrorPass::makeTurnPass(const Device& device, const TurnVariant
   return {device,
           {.spirv = turn_paths_spirv,
            .push_bytes = sizeof(abi::TracePush),
-           .takes_columns = true,
+           .takes_parts = true,
            .constants = constants,
            .descriptors = mirrorSlots({{abi::kBindingPaths, DescriptorKind::kStorage}}),
            .debug_name = "turn paths"}};
@@ -81,7 +81,7 @@ ComputePass PathMirrorPass::makeWalkPass(const Device& device, const WalkVariant
   return {device,
           {.spirv = walk_paths_spirv,
            .push_bytes = sizeof(abi::TracePush),
-           .takes_columns = true,
+           .takes_parts = true,
            .constants = constants,
            .descriptors = mirrorSlots({{abi::kBindingPaths, DescriptorKind::kStorage},
                                        {abi::kBindingBand, DescriptorKind::kStorage}}),
@@ -92,7 +92,7 @@ ComputePass PathMirrorPass::makeMergePass(const Device& device, const std::monos
   return {device,
           {.spirv = merge_paths_spirv,
            .push_bytes = sizeof(abi::MergePathsPush),
-           .takes_columns = true,
+           .takes_parts = true,
            .descriptors = kMergeSlots,
            .debug_name = "merge paths"}};
 }

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "shared/trace_abi.h"
+#include "trace/band_parts.h"
 
 namespace viewloom {
 namespace {
@@ -22,6 +23,8 @@ constexpr uint32_t kPixelsOnSoftwareInLanes = 16;
 constexpr uint32_t kRunWidthMax_px = 384;  // of the source
 static_assert(*std::begin(kPixelsOnSoftware) + 2 <= abi::kTraceGroupSize,
               "what is left of an unfinished run fits in a group");
+static_assert(*std::begin(kPixelsOnSoftware) * abi::kTraceGroupSize <= kWalkColumns_px,
+              "parts of rows have groups of their own");
 
 }  // namespace
 

@@ -56,7 +56,7 @@ MissingKernels ViewTracer::missing(std::span<const StructureSlot* const> structu
 void ViewTracer::recordBand(Commands commands, std::span<const StructureSlot* const> structures,
                             const TraceJob& job, BandRows rows, TraceSlot& slot, GpuTimer* timer) {
   if (timer) timer->recordBegin(commands, "trace");
-  for (BandParts parts(job, rows); !parts.isOver();) {
+  for (BandParts parts = partsOf(structures, job, rows); !parts.isOver();) {
     recordPart(commands, structures, job, rows, parts.take(), slot);
   }
   if (timer) timer->recordEnd(commands);
@@ -73,7 +73,15 @@ void ViewTracer::recordPart(Commands commands, std::span<const StructureSlot* co
   }
   for (const BandRays& rays : raysOfPart(job, first, slot.shape().outputs, part)) {
     recordRays(commands, structures, job, rows, part, rays, slot);
-    recordAfter(commands, first, job, rows, part, rays, slot);
+    const bool is_middle = job.hasLens() && !rays.through_lens;
+    if (is_middle || gathersOnDevice(job, first)) recordComputeBarrier(commands);
+    if (part.settles && !is_middle) {
+      recordSettling(commands, first, job, rows, {0, rows.row_count}, rays.sample, slot);
+    }
+  }
+  if (part.kind == PartKind::kSettle) {
+    recordSettling(commands, first, job, rows, {part.first_row, part.end_row}, part.first_sample,
+                   slot);
   }
   if (part.kind == PartKind::kGather && gathersOnDevice(job, first)) {
     lens_.record(commands, first, job, rows, part, slot);
@@ -104,36 +112,42 @@ uint64_t ViewTracer::recordMeans(Commands commands,
 void ViewTracer::recordRays(Commands commands, std::span<const StructureSlot* const> structures,
                             const TraceJob& job, BandRows rows, const BandPart& part,
                             const BandRays& rays, const TraceSlot& slot) {
-  const RowSpan span{part.first_row, part.end_row};
   if (job.walk_count > 1) {
-    merge_.record(commands, structures, job, rows, span, rays, slot);
+    merge_.record(commands, structures, job, rows, part, rays, slot);
     return;
   }
   const Descriptor target = wholeBuffer(abi::kBindingBand, slot.sampleTarget(job));
-  walk_.record(commands, {*structures.front(), job, 0, rays}, rows, span, slot, target);
+  walk_.record(
+      commands, {*structures.front(), job, 0, rays}, rows,
+      {.rows = {part.first_row, part.end_row}, .columns = {part.first_column, part.end_column}},
+      slot, target);
 }
 
 // Rays that are walked for the second stage of a lens add their light, and leave what they met:
 // blocks where a round of them met nothing new have no more of them. The second stage makes px of
-// the sums. That is for the whole band, after its last rows.
-void ViewTracer::recordAfter(Commands commands, const StructureSlot& structure, const TraceJob& job,
-                             BandRows rows, const BandPart& part, const BandRays& rays,
-                             const TraceSlot& slot) {
-  const bool is_middle = job.hasLens() && !rays.through_lens;
-  const bool gathers = gathersOnDevice(job, structure);
-  if (is_middle || gathers) recordComputeBarrier(commands);
-  if (is_middle || !part.ends_band) return;
-  if (gathers) {
-    const MetRound round = metRound(rays.sample, job.sample_count);
-    if (rays.sample + 1 == round.end) {
-      lens_.recordLists(commands, structure, job, rows, slot, round);
-    }
-  } else if (job.sumsLight() && !job.reflects()) {
-    recordBlend(commands, job, rays.sample, slot);
+// the sums. Mirrored light is added to px before they are blended.
+void ViewTracer::recordSettling(Commands commands, const StructureSlot& structure,
+                                const TraceJob& job, BandRows rows, RowSpan span, uint32_t sample,
+                                const TraceSlot& slot) {
+  if (gathersOnDevice(job, structure)) {
+    const MetRound round = metRound(sample, job.sample_count);
+    if (sample + 1 < round.end) return;
+    lens_.recordLists(commands, structure, job, rows, span, slot, round);
+    return;
   }
+  if (job.reflects()) {
+    mirrored_light_.record(commands, job,
+                           {.rows = rows,
+                            .reflected = slot.reflected(),
+                            .rgba = slot.sampleTarget(job),
+                            // The mean of several samples is made of their codes.
+                            .linear_address = job.sample_count == 1 ? slot.linearAddress() : 0,
+                            .span = span});
+  }
+  if (job.sumsLight()) recordBlend(commands, job, span, sample, slot);
 }
 
-// Records reflections for rows whose pixels are known. The last one adds all light to the pixels.
+// Records reflections for px whose rays are known.
 void ViewTracer::recordReflections(Commands commands,
                                    std::span<const StructureSlot* const> structures,
                                    const TraceJob& job, BandRows rows, const BandPart& part,
@@ -144,24 +158,22 @@ void ViewTracer::recordReflections(Commands commands,
   } else {
     path_mirror_.record(commands, structures, job, rows, part, slot);
   }
-  if (!part.ends_band) return;
-  mirrored_light_.record(commands, job,
-                         {.rows = rows,
-                          .reflected = slot.reflected(),
-                          .rgba = slot.sampleTarget(job),
-                          // The mean of several samples is made of their codes.
-                          .linear_address = job.sample_count == 1 ? slot.linearAddress() : 0});
-  if (job.sumsLight()) recordBlend(commands, job, part.first_sample, slot);
+  if (!part.settles) return;
+  recordSettling(commands, *structures.front(), job, rows, {0, rows.row_count}, part.first_sample,
+                 slot);
 }
 
-void ViewTracer::recordBlend(Commands commands, const TraceJob& job, uint32_t sample,
+void ViewTracer::recordBlend(Commands commands, const TraceJob& job, RowSpan span, uint32_t sample,
                              const TraceSlot& slot) {
+  const SizePx band_px = slot.bandSize_px();
   blend_.record(commands,
                 {.sample = slot.sampleTarget(job),
                  .sums = slot.sums(),
                  .band = slot.rgba(),
                  .linear_address = slot.linearAddress(),
-                 .px_count = uint32_t(slot.bandSize_px().area())},
+                 .px_count = uint32_t(band_px.area()),
+                 .first_px = span.first * band_px.width,
+                 .end_px = span.end * band_px.width},
                 job.layout->samples, sample);
 }
 

@@ -48,8 +48,18 @@ class ViewTracer {
     const StructureSlot* const structures[] = {&structure};
     recordBand(commands, structures, job, rows, slot, timer);
   }
-  // The same part by part (BandParts), all of them in their order, each in a submission of its own
-  // if wanted. Nothing else may use the slot meanwhile.
+  // The same part by part, all of them in their order, each in a submission of its own if wanted.
+  // Nothing else may use the slot meanwhile.
+  static BandParts partsOf(std::span<const StructureSlot* const> structures, const TraceJob& job,
+                           BandRows rows) {
+    return {job, rows, gathersOnDevice(job, *structures.front())};
+  }
+  // Rays of a part that are to be traced: no more than it counts.
+  static uint64_t rayCount(std::span<const StructureSlot* const> structures, const TraceJob& job,
+                           const BandPart& part) {
+    return part.walks() && job.walk_count > 1 ? MergePass::rayCount(structures, job, part)
+                                              : part.ray_count;
+  }
   void recordPart(Commands commands, std::span<const StructureSlot* const> structures,
                   const TraceJob& job, BandRows rows, const BandPart& part, TraceSlot& slot);
   // Records some of the means of colour that the job's bands take, of about so many texels. Returns
@@ -61,14 +71,14 @@ class ViewTracer {
   void recordRays(Commands commands, std::span<const StructureSlot* const> structures,
                   const TraceJob& job, BandRows rows, const BandPart& part, const BandRays& rays,
                   const TraceSlot& slot);
-  // Records the work that has to follow those rays.
-  void recordAfter(Commands commands, const StructureSlot& structure, const TraceJob& job,
-                   BandRows rows, const BandPart& part, const BandRays& rays,
-                   const TraceSlot& slot);
+  // Adds what is known of a sample to what is known of the others, in some rows of the band.
+  void recordSettling(Commands commands, const StructureSlot& structure, const TraceJob& job,
+                      BandRows rows, RowSpan span, uint32_t sample, const TraceSlot& slot);
   void recordReflections(Commands commands, std::span<const StructureSlot* const> structures,
                          const TraceJob& job, BandRows rows, const BandPart& part,
                          const TraceSlot& slot);
-  void recordBlend(Commands commands, const TraceJob& job, uint32_t sample, const TraceSlot& slot);
+  void recordBlend(Commands commands, const TraceJob& job, RowSpan span, uint32_t sample,
+                   const TraceSlot& slot);
 
   const Device& device_;
   MeanColorPass mean_color_;

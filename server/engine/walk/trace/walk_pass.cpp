@@ -10,6 +10,7 @@
 #include "shared/kernel_constants.h"
 #include "shared/lens_abi.h"
 #include "trace/band_params.h"
+#include "trace/met_blocks.h"
 #include "trace/px_runs.h"
 
 namespace viewloom {
@@ -44,6 +45,17 @@ ColorReach reachOf(const Walk& walk) {
   return colorReach(rays.tiles, rays.tile_px);
 }
 
+constexpr uint64_t kGroupsOffset = offsetof(abi::IncompleteHead, group_count);
+
+// Groups for these px of a row of so many runs, whichever views neighbouring runs are of.
+GroupColumns groupsOf(ColumnSpan columns, uint32_t width_px, uint32_t run_count) {
+  const auto groupAt = [&](uint64_t column) {
+    return column == width_px ? groupCount(run_count)
+                              : uint32_t(column * run_count / width_px / abi::kTraceGroupSize);
+  };
+  return {groupAt(columns.first), groupAt(columns.end)};
+}
+
 // Every binding of a kernel has to have a buffer, also one that its variant does not use: there
 // stands what it writes anyhow, so that walks beside each other need not wait.
 Descriptor usedOr(uint32_t binding, bool is_used, const Buffer& buffer, Descriptor target) {
@@ -74,6 +86,7 @@ ComputePass WalkPass::makePass(const Device& device, const Variant& variant) {
   return {device,
           {.spirv = walk_views_spirv,
            .push_bytes = sizeof(abi::TracePush),
+           .takes_parts = true,
            .constants = constants,
            .descriptors = kWalkSlots,
            .debug_name = "walk views"}};
@@ -138,7 +151,23 @@ uint64_t WalkPass::recordMeans(Commands commands, const Walk& walk, uint64_t tex
   return mean_color_.recordRows(commands, walk.structure, reachOf(walk), texel_count_max);
 }
 
-void WalkPass::record(Commands commands, const Walk& walk, BandRows rows, RowSpan span,
+// As many groups as the list has. A share of it is taken as if all blocks were listed, as nobody
+// but the device knows how many are: groups behind its end have nothing to do.
+void WalkPass::recordListed(Commands commands, const ComputePass& pass, const abi::TracePush& push,
+                            const Walk& walk, BandRows rows, RowSpan span, const TraceSlot& slot) {
+  if (!walk.rays.is_of_blocks || span.end - span.first == rows.row_count) {
+    pass.recordIndirect(commands, push, slot.incomplete(), kGroupsOffset);
+    return;
+  }
+  const MetBlocks blocks = metBlocks(*walk.job.layout, rows);
+  const uint64_t group_count =
+      groupCount(blocks.per_row * blocks.row_count * abi::kMetBlockSide_px);
+  const auto groupAt = [&](uint32_t row) { return uint32_t(row * group_count / rows.row_count); };
+  const GroupColumns groups{groupAt(span.first), groupAt(span.end)};
+  if (groups.first < groups.end) pass.recordColumns(commands, push, groups, 1);
+}
+
+void WalkPass::record(Commands commands, const Walk& walk, BandRows rows, const Px& px,
                       const TraceSlot& slot, const Descriptor& target) {
   const Variant variant = variantOf(walk);
   const ComputePass& walk_views = passes_.get(variant);
@@ -146,16 +175,17 @@ void WalkPass::record(Commands commands, const Walk& walk, BandRows rows, RowSpa
   if (variant.lists_unfinished) recordEmptyList(commands, slot.unfinished());
   walk_views.recordDescriptors(commands, describe(walk, variant, color.texels, slot, target));
   abi::TracePush push = tracePush(walk, color.texels, rows);
-  push.band_row = span.first;
-  constexpr uint64_t kGroupsOffset = offsetof(abi::IncompleteHead, group_count);
+  push.band_row = px.rows.first;
   if (walk.rays.areListed()) {
-    walk_views.recordIndirect(commands, push, slot.incomplete(), kGroupsOffset);
+    recordListed(commands, walk_views, push, walk, rows, px.rows, slot);
     return;
   }
   const AtlasLayout& layout = *walk.job.layout;
   const uint32_t pixels = variant.pixels_per_invocation;
   const uint32_t runs = (layout.tile_size_px.width + pixels - 1) / pixels * layout.columns;
-  walk_views.record(commands, push, groupCount(runs), span.end - span.first);
+  const GroupColumns groups = groupsOf(px.columns, layout.size_px.width, runs);
+  if (groups.first == groups.end) return;
+  walk_views.recordColumns(commands, push, groups, px.rows.end - px.rows.first);
   if (!variant.lists_unfinished) return;
   recordComputeBarrier(commands);
   push.fill |= abi::kFillUnfinished;

@@ -21,10 +21,16 @@ class WalkPass {
   // Kernels that record() needs.
   void addMissing(const Walk& walk, MissingKernels& missing);
 
-  // Rays of some rows of the slot's band, which has these rows of the atlas; listed rays are those
-  // of the whole band. `target`: where they answer, at abi::kBindingBand. The structure's build is
-  // done, not only recorded: its stats choose the kernel. Nothing is synchronised afterwards.
-  void record(Commands commands, const Walk& walk, BandRows rows, RowSpan span,
+  // Rays of some px of the slot's band, which has these rows of the atlas. Where spans follow each
+  // other, all px are walked once: invocations take runs of px, so that those at the ends may not
+  // be the span's own. Of a list of blocks it is a share like that of the rows in the band.
+  struct Px {
+    RowSpan rows;
+    ColumnSpan columns;
+  };
+  // `target`: where they answer, at abi::kBindingBand. The structure's build is done, not only
+  // recorded: its stats choose the kernel. Nothing is synchronised afterwards.
+  void record(Commands commands, const Walk& walk, BandRows rows, const Px& px,
               const TraceSlot& slot, const Descriptor& target);
   // The same as MeanColorPass::recordRows, of the colour that the walk takes.
   uint64_t recordMeans(Commands commands, const Walk& walk, uint64_t texel_count_max);
@@ -57,6 +63,8 @@ class WalkPass {
   static std::vector<Descriptor> describe(const Walk& walk, const Variant& variant,
                                           const LayeredBuffer& color, const TraceSlot& slot,
                                           const Descriptor& target);
+  static void recordListed(Commands commands, const ComputePass& pass, const abi::TracePush& push,
+                           const Walk& walk, BandRows rows, RowSpan span, const TraceSlot& slot);
 
   const Device& device_;
   MeanColorPass& mean_color_;
