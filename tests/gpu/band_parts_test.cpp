@@ -277,8 +277,8 @@ TEST_F(PartsTest, walkTheSameSampleBySample) {
   expectSameWalks(*one, specOf(filtered), true);
   expectSameWalks(*twice(*one), specOf(filtered), true);
   DisplaySpec seen_through;
-  seen_through.lens =
-      LensSpec{.aperture_radius_m = 0.03, .focus_distance_m = 1.5, .walked_count = 4};
+  seen_through.lens = LensSpec{
+      .aperture_radius_m = 0.03, .focus_distance_m = 1.5, .walked_count = 4, .gathered_count = 0};
   expectSameWalks(*one, specOf(seen_through), true);
   expectSameWalks(*twice(*one), specOf(seen_through), true);
 }

@@ -93,28 +93,21 @@ int64_t WalkedFrame::build(const Clock& clock, const PreparationEvents& events) 
 // One submission at a time, so that others get their turn on the device in between.
 void WalkedFrame::buildInPieces(const PreparationEvents& events) {
   CommandRecorder& recorder = form_->recorder;
-  const uint64_t piece_px_count = works_.px_cost.unitsFor(kPiece_ns);
-  uint64_t recorded_px_count = 0;
-  const auto submit = [&] {
-    const int64_t predicted_ns = works_.px_cost.predictNs(recorded_px_count);
+  const auto submit = [&](const BuiltPx& recorded) {
+    const int64_t predicted_ns = works_.build_costs.predictNs(recorded);
     const int64_t submitted_ns = wallTimeNs();
     works_.timeline.wait(recorder.submit(works_.timeline));
     const int64_t measured_ns = works_.clock.noteDone(submitted_ns);
-    works_.px_cost.note(recorded_px_count, measured_ns);
+    works_.build_costs.note(recorded, measured_ns);
     events.on_piece({.predicted_ns = predicted_ns, .measured_ns = measured_ns});
-    recorded_px_count = 0;
   };
-  Commands commands = recorder.begin();
-  CutRecording cuts(commands, piece_px_count, [&](uint64_t px_count) {
-    recorded_px_count += px_count;
-    if (recorded_px_count < piece_px_count) return commands;
-    submit();
+  CutRecording cuts(recorder.begin(), works_.build_costs, kPiece_ns, [&](const BuiltPx& recorded) {
+    submit(recorded);
     if (events.is_given_up()) throw PreparationGivenUp();
-    commands = recorder.begin();
-    return commands;
+    return recorder.begin();
   });
   form_->structure.recordBuild(cuts, works_.builder);
-  submit();
+  submit(cuts.recorded());
 }
 
 FrameMeasures WalkedFrame::measures() const {

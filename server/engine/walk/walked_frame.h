@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "admission/memory_budget.h"
-#include "base/cost_estimate.h"
 #include "engine/engine.h"
 #include "gpu/submission.h"
+#include "structure/build_costs.h"
 #include "structure/frame_structure.h"
 #include "structure/structure_builder.h"
 #include "walk/submission_clock.h"
@@ -27,7 +27,7 @@ struct StructureWorks {
   Timeline timeline;
   const StructureBuilder builder;
   SubmissionClock clock;
-  CostEstimate px_cost{kBuiltPxStart_ns};  // of a px of a pass
+  BuildCosts build_costs{kBuiltPxStart_ns};
 
  private:
   // Until something was measured, as slow as a software device with one core.

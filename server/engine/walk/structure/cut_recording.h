@@ -7,37 +7,50 @@
 #include <utility>
 
 #include "gpu/commands.h"
+#include "structure/build_costs.h"
 
 namespace viewloom {
 
-// Passes over px record rows one piece after the other and note each. Thread-safety: none.
+// Passes over px record rows one piece after the other, as many as takeRows() says each time.
+// Thread-safety: none.
 class CutRecording {
  public:
-  // Is told that so many px were recorded since it was told last. May submit the recording, and
-  // returns the one that goes on.
-  using GoOn = std::function<Commands(uint64_t px_count)>;
+  // Submits what was recorded since the last time, and waits for it. Returns the recording that
+  // goes on.
+  using GoOn = std::function<Commands(const BuiltPx& recorded)>;
 
   // Never cut.
   explicit CutRecording(Commands commands) : commands_(commands) {}
-  // May be cut after about `piece_px_count` px of one pass.
-  CutRecording(Commands commands, uint64_t piece_px_count, GoOn go_on)
-      : commands_(commands), piece_px_count_(piece_px_count), go_on_(std::move(go_on)) {}
+  // Cut so that a piece is predicted to take `piece_ns` at most, or has a single row. The costs
+  // outlive it.
+  CutRecording(Commands commands, const BuildCosts& costs, int64_t piece_ns, GoOn go_on)
+      : commands_(commands), costs_(&costs), piece_ns_(piece_ns), go_on_(std::move(go_on)) {}
 
+  // Where the next rows are recorded; not that one any more after takeRows() or cut().
   Commands commands() const { return commands_; }
-  uint64_t piecePxCount() const { return piece_px_count_; }
-  // Notes recorded px. The recording may be cut here.
-  void note(uint64_t px_count) {
-    if (go_on_) commands_ = go_on_(px_count);
-  }
+  // Rows of so many px that a pass is to record next, 1 to row_count. Cuts before them, unless they
+  // fit into the piece.
+  uint64_t takeRows(BuildPass pass, uint64_t row_px_count, uint64_t row_count);
+  // Whether so many px of a pass are more than a piece.
+  bool isLong(BuildPass pass, uint64_t px_count) const;
+  // Cuts here, unless it is never cut: the CPU may read what was written so far.
+  void cut();
+  // What was recorded since it was cut last.
+  const BuiltPx& recorded() const { return recorded_; }
 
  private:
   Commands commands_;
-  uint64_t piece_px_count_ = UINT64_MAX;
+  const BuildCosts* costs_ = nullptr;
+  int64_t piece_ns_ = 0;
   GoOn go_on_;
+  BuiltPx recorded_;
 };
 
 // Copies piece by piece.
 void recordCopy(CutRecording& recording, const Buffer& from, const Buffer& to,
                 const CopiedBytes& bytes);
+// Fills words of a buffer piece by piece, from an offset on. Both are multiples of 4.
+void recordFill(CutRecording& recording, const Buffer& target, uint64_t offset, uint64_t size_bytes,
+                uint32_t word);
 
 }  // namespace viewloom

@@ -39,6 +39,7 @@ ComputePass makePass(const Device& device, const StructureVariant& variant,
   constants.insert(constants.end(), own);
   return ComputePass(device, {.spirv = spirv,
                               .push_bytes = sizeof(abi::BuildPush),
+                              .takes_parts = true,
                               .constants = constants,
                               .descriptors = kSlots,
                               .debug_name = name});
@@ -90,6 +91,7 @@ ComputePass makePrepareColumns(const Device& device, const PrepareVariant& varia
 ComputePass makeConvertColor(const Device& device) {
   return ComputePass(device, {.spirv = convert_color_spirv,
                               .push_bytes = sizeof(abi::ConvertColorPush),
+                              .takes_parts = true,
                               .descriptors = kSlots,
                               .debug_name = "convert color"});
 }
