@@ -30,14 +30,28 @@ void checkPlanes(const BandPixels& pixels, const EncodingSpec& encoding) {
 
 void checkShape(const BandPixels& pixels, const EncodingSpec& encoding, SizePx atlas_size_px) {
   VIEWLOOM_CHECK(pixels.width_px == atlas_size_px.width);
-  VIEWLOOM_CHECK(pixels.first_row % bandRowCount(encoding) == 0);
+  const uint32_t least = leastSliceRowCount(encoding, pixels.plane);
+  VIEWLOOM_CHECK(pixels.first_row % least == 0);
   const uint32_t end_row = pixels.first_row + pixels.row_count;
-  VIEWLOOM_CHECK(pixels.row_count == bandRowCount(encoding) || end_row == atlas_size_px.height);
+  VIEWLOOM_CHECK(pixels.row_count % least == 0 || end_row == atlas_size_px.height);
   VIEWLOOM_CHECK(pixels.row_count > 0);
+  const uint32_t band_rows = bandRowCount(encoding);
+  VIEWLOOM_CHECK(pixels.first_row % band_rows + pixels.row_count <= band_rows);
   checkPlanes(pixels, encoding);
 }
 
+BandEncoding encodingOf(const EncodingSpec& encoding, AtlasPlane plane) {
+  return isColor(plane) ? encoding.color : encoding.planes;
+}
+
 }  // namespace
+
+// Rows of MCUs, of which a band has eight; a Zstandard frame is a whole band.
+uint32_t leastSliceRowCount(const EncodingSpec& encoding, AtlasPlane plane) {
+  constexpr uint32_t kMcuRows = 8;
+  const bool is_whole = encodingOf(encoding, plane) == BandEncoding::kZstd;
+  return bandRowCount(encoding) / (is_whole ? 1 : kMcuRows);
+}
 
 BandEncoder::BandEncoder(BytePool& pool)
     : jpeg_(std::make_unique<JpegEncoder>(pool)),
@@ -51,7 +65,7 @@ EncodedBand BandEncoder::encode(const BandPixels& pixels, const EncodingSpec& en
   EncodedBand band = {.plane = pixels.plane,
                       .first_row = pixels.first_row,
                       .row_count = pixels.row_count,
-                      .encoding = isColor(pixels.plane) ? encoding.color : encoding.planes,
+                      .encoding = encodingOf(encoding, pixels.plane),
                       .bytes = nullptr};
   switch (band.encoding) {
     case BandEncoding::kJpeg:

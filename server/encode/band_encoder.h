@@ -2,6 +2,7 @@
 // Packs bands as a display asked for it: one instance per encode thread.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 
 #include "base/byte_pool.h"
@@ -12,6 +13,10 @@ namespace viewloom {
 class JpegEncoder;
 class LosslessEncoder;
 
+// Rows of a plane that can be packed apart from others of their band: slices of a band have a
+// multiple of them, and begin with one.
+uint32_t leastSliceRowCount(const EncodingSpec& encoding, AtlasPlane plane);
+
 // Keeps compressor state from band to band, so that packing touches the heap only while it warms
 // up. Thread-safety: none; one thread at a time. Which instance packs which band does not change a
 // byte.
@@ -21,7 +26,8 @@ class BandEncoder {
   explicit BandEncoder(BytePool& pool);
   ~BandEncoder();
 
-  // The bands of a JPEG image, joined in order of first_row, are one baseline JPEG file.
+  // The bands of a JPEG image, joined in order of first_row, are one baseline JPEG file. The same
+  // of a slice of a band: the bytes of its slices, joined, are those of the band.
   EncodedBand encode(const BandPixels& pixels, const EncodingSpec& encoding,
                      const AtlasLayout& layout);
 

@@ -15,9 +15,11 @@ namespace viewloom {
 // Full-width rows of one plane of an atlas. Borrowed: the bytes must stay until encode() returns.
 struct BandPixels {
   AtlasPlane plane = AtlasPlane::kColor;
-  uint32_t first_row = 0;  // px from the top; a multiple of bandRowCount()
-  uint32_t row_count = 0;  // bandRowCount(), fewer only in the last band
-  uint32_t width_px = 0;   // of the atlas
+  // A band's first_row is a multiple of bandRowCount(), and so is row_count except in the last
+  // band; leastSliceRowCount() says which slices of a band there may be.
+  uint32_t first_row = 0;  // px from the top
+  uint32_t row_count = 0;
+  uint32_t width_px = 0;  // of the atlas
   // Form of kColor. JPEG takes its directForm() as well as kRgba; lossless encodings take kRgba
   // alone.
   ColorForm form = ColorForm::kRgba;

@@ -16,7 +16,9 @@ namespace {
 
 // Second bytes of JPEG markers (ITU-T T.81, table B.1).
 constexpr uint8_t kSof0 = 0xC0;
+constexpr uint8_t kRst0 = 0xD0;
 constexpr uint8_t kRst7 = 0xD7;
+constexpr uint32_t kRestartCount = kRst7 - kRst0 + 1;
 constexpr uint8_t kEoi = 0xD9;
 constexpr uint8_t kSos = 0xDA;
 constexpr size_t kMarker_bytes = 2;
@@ -80,6 +82,17 @@ JpegHeader readHeader(const std::vector<uint8_t>& stream) {
     if (marker == kSos) header.size_bytes = at;
   }
   return header;
+}
+
+// Numbers the restart markers between rows of MCUs that begin with this one of a band. Nothing else
+// looks like such a marker: codes never have these second bytes.
+void numberRestarts(std::span<uint8_t> rows, uint32_t first) {
+  for (size_t at = 0; at + 1 < rows.size(); ++at) {
+    if (rows[at] != 0xFF) continue;
+    uint8_t& code = rows[at + 1];
+    if (code < kRst0 || code > kRst7) continue;
+    code = static_cast<uint8_t>(kRst0 + (code - kRst0 + first) % kRestartCount);
+  }
 }
 
 }  // namespace
@@ -179,7 +192,12 @@ SharedBytes JpegEncoder::encode(const BandPixels& pixels, const EncodingSpec& en
   const bool is_last = pixels.first_row + pixels.row_count == image_height_px;
   stream_[header.height_offset] = static_cast<uint8_t>(image_height_px >> 8);
   stream_[header.height_offset + 1] = static_cast<uint8_t>(image_height_px);
-  stream_[stream_bytes - 1] = is_last ? kEoi : kRst7;
+  const uint32_t mcu_rows = bandRowCount(encoding) / kRestartCount;
+  const uint32_t first = pixels.first_row / mcu_rows % kRestartCount;
+  const uint32_t last = first + (pixels.row_count - 1) / mcu_rows;
+  const std::span<uint8_t> rows(stream_.data() + header.size_bytes, stream_.data() + stream_bytes);
+  if (first > 0) numberRestarts(rows.first(rows.size() - kMarker_bytes), first);
+  stream_[stream_bytes - 1] = is_last ? kEoi : static_cast<uint8_t>(kRst0 + last);
 
   const std::vector<uint8_t> exif = is_first ? quiltExif(layout) : std::vector<uint8_t>();
   const size_t begin = is_first ? kMarker_bytes : header.size_bytes;

@@ -16,7 +16,8 @@ namespace viewloom {
 // other. A band is 8 MCU rows, so that the restart numbering (modulo 8) is the same in every band:
 // the header of the whole image + bands joined by RST7 + EOI is what encoding the image at once
 // would give, to the byte. Each band but the last carries its RST7, the first the header, the last
-// the EOI. Thread-safety: none; one thread at a time.
+// the EOI. Slices of a band are whole MCU rows, with their restart markers numbered as in the band.
+// Thread-safety: none; one thread at a time.
 class JpegEncoder {
  public:
   explicit JpegEncoder(BytePool& pool);
@@ -26,6 +27,7 @@ class JpegEncoder {
 
   // pixels.plane is kColor, or a channel of it, which makes a grey JPEG. Samples that are Y'CbCr
   // already are taken as they are. The first band of a quilt says how its views lie (quilt_exif.h).
+  // A band, or a slice of one.
   SharedBytes encode(const BandPixels& pixels, const EncodingSpec& encoding,
                      const AtlasLayout& layout);
 

@@ -47,7 +47,9 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
       packs.push_back({output, plane, rank++});
     }
   }
-  packs_left_ = uint32_t(strips.count() * packs.size());
+  for (uint32_t strip = 0; strip < strips.count(); ++strip) {
+    rows_left_ += strips.rowsOf(strip).row_count * packs.size();
+  }
   claim.is_tracked = isTracked();
 }
 

@@ -14,6 +14,7 @@
 #include "encode/encoded_band.h"
 #include "engine/engine.h"
 #include "pipeline/picture_cache.h"
+#include "pipeline/sliced_bands.h"
 #include "publish/broadcaster.h"
 #include "publish/growing_atlas.h"
 #include "schedule/atlas_job.h"
@@ -57,8 +58,8 @@ class AtlasRun {
   bool isGivenUp() const { return is_given_up_; }
   // Gives it up, and tells its viewers that it will not be completed.
   void abandon();
-  // A plane of a strip is packed. True for the last one of the atlas.
-  bool noteEncoded() { return --packs_left_ == 0; }
+  // So many rows of a plane of a strip are packed. True for the last ones of the atlas.
+  bool noteEncoded(uint32_t row_count) { return (rows_left_ -= row_count) == 0; }
 
   AtlasJob job;
   PicturePtr picture;       // final once its first rays are submitted
@@ -69,6 +70,7 @@ class AtlasRun {
   TraceOutputs planes;
   AtlasStrips strips;
   std::vector<PackedPlane> packs;  // of each strip
+  SlicedBands sliced_bands;
   TraceMethod method = TraceMethod::kWalk;
   int64_t begun_ns = 0;
   PlanPtr plan;                    // of the picture, by the loop's engine
@@ -79,7 +81,7 @@ class AtlasRun {
   int64_t tracedNs() const;
 
  private:
-  std::atomic<uint32_t> packs_left_;
+  std::atomic<uint64_t> rows_left_ = 0;  // to be packed, of all planes
   std::atomic<bool> is_given_up_ = false;
   mutable std::mutex mutex_;
   RayCounts counts_;

@@ -107,7 +107,7 @@ void EncodePool::finish(EncodeTask task) {
   const AtlasRunPtr run = task.batch->run;
   if (!task.is_strip) return tasks_.noteMade(*task.batch);  // after the last, others may pack
   task.batch.reset();
-  if (!run->noteEncoded() || run->isGivenUp()) return;
+  if (!run->noteEncoded(task.rows.row_count) || run->isGivenUp()) return;
   const absl::Status status = withinMemory([&] { publisher_.complete(*run); });
   if (!status.ok()) publisher_.giveUp(*run, status);
 }
@@ -115,30 +115,42 @@ void EncodePool::finish(EncodeTask task) {
 void EncodePool::pack(const EncodeTask& task, BandEncoder& encoder) {
   AtlasRun& run = *task.batch->run;
   const StripWork& work = *task.batch->work;
-  if (task.index == 0 && task.pack == 0) run.noteTraced(work.counts(), links_.clock.nowNs());
+  if (task.index == 0 && task.pack == 0 && task.rows.first_row == 0) {
+    run.noteTraced(work.counts(), links_.clock.nowNs());
+  }
   const uint32_t strip = work.shape.first_strip + task.index;
   const StripPlanes planes = work.planes(strip);
   BandPixels color =
       rowsOf(colorPixels(planes.rgba, planes.ycbcr, planes.color_px, run.planes.color),
              planes.first_row, run.strips.rowsOf(strip).row_count);
   color.first_row = run.strips.rowInImage(strip);
-  encode(run, {*run.picture->layout, planes, run.strips.imageOf(strip), color},
-         run.packs[task.pack], encoder);
+  encode(task, {*run.picture->layout, planes, run.strips.imageOf(strip), color}, encoder);
 }
 
-void EncodePool::encode(AtlasRun& run, const StripPixels& strip, const PackedPlane& packed,
-                        BandEncoder& encoder) {
+void EncodePool::encode(const EncodeTask& task, const StripPixels& strip, BandEncoder& encoder) {
+  AtlasRun& run = *task.batch->run;
+  const PackedPlane& packed = run.packs[task.pack];
   AtlasOutput& output = run.outputs[packed.output];
   const EncodingSpec& encoding = output.display->encoding;
   const BandPixels pixels = strip.pixels(packed.plane);
-  for (uint32_t row = 0; row < pixels.row_count; row += output.band_row_count) {
-    const BandPixels band = rowsOf(pixels, row, output.band_row_count);
-    const uint32_t index =
-        strip.image * output.bands_per_image + band.first_row / output.band_row_count;
-    EncodedBand bytes = encoder.encode(band, encoding, *run.picture->layout);
+  const uint32_t band_rows = output.band_row_count;
+  const uint32_t slice_rows = std::min(task.slice_row_count, band_rows);
+  const uint32_t end = task.rows.first_row + task.rows.row_count;
+  for (uint32_t row = task.rows.first_row; row < end; row += slice_rows) {
+    const BandPixels slice = rowsOf(pixels, row, std::min(slice_rows, end - row));
+    const uint32_t in_band = row % band_rows;
+    const uint32_t rows_of_band = std::min(band_rows, pixels.row_count - (row - in_band));
+    const uint32_t index = strip.image * output.bands_per_image + slice.first_row / band_rows;
+    const size_t band = packed.rank * output.bands_per_plane + index;
+    EncodedBand encoded = encoder.encode(slice, encoding, *run.picture->layout);
+    links_.metrics.encoded_bytes.add(static_cast<double>(encoded.bytes->size()));
+    SharedBytes bytes = run.sliced_bands.add(
+        {.output = packed.output, .index = band},
+        {.index = in_band / slice_rows, .count = (rows_of_band + slice_rows - 1) / slice_rows},
+        std::move(encoded.bytes), bytes_);
+    if (!bytes) continue;
     links_.metrics.bands_encoded.add();
-    links_.metrics.encoded_bytes.add(static_cast<double>(bytes.bytes->size()));
-    output.atlas->put(packed.rank * output.bands_per_plane + index, std::move(bytes.bytes));
+    output.atlas->put(band, std::move(bytes));
   }
 }
 

@@ -32,8 +32,7 @@ class EncodePool {
   void run();
   void serve(const EncodeTask& task, BandEncoder& encoder);
   void pack(const EncodeTask& task, BandEncoder& encoder);
-  void encode(AtlasRun& run, const StripPixels& strip, const PackedPlane& packed,
-              BandEncoder& encoder);
+  void encode(const EncodeTask& task, const StripPixels& strip, BandEncoder& encoder);
   void note(const EncodeTask& task, int64_t duration_ns);
   void finish(EncodeTask task);
 

@@ -2,9 +2,12 @@
 #include "pipeline/encode_queue.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <thread>
 #include <utility>
+
+#include "encode/band_encoder.h"
 
 namespace viewloom {
 namespace {
@@ -12,10 +15,13 @@ namespace {
 // To be woken takes a thread about as long, and it may be put on a core that is busy.
 constexpr std::chrono::microseconds kLookout{100};
 
+uint32_t rowsOfStrip(const EncodeTask& task) {
+  const StripBatch& batch = *task.batch;
+  return batch.run->strips.rowsOf(batch.work->shape.first_strip + task.index).row_count;
+}
+
 uint64_t packedPx(const EncodeTask& task) {
-  const AtlasRun& run = *task.batch->run;
-  const uint32_t strip = task.batch->work->shape.first_strip + task.index;
-  return uint64_t{run.picture->layout->size_px.width} * run.strips.rowsOf(strip).row_count;
+  return uint64_t{task.batch->run->picture->layout->size_px.width} * task.rows.row_count;
 }
 
 }  // namespace
@@ -89,13 +95,36 @@ void EncodeQueue::takePack(EncodeTask& task) {
   StripBatch& batch = *task.batch;
   task.is_strip = true;
   task.index = batch.next_strip;
-  task.pack = batch.next_pack++;
-  const PackedPlane& packed = batch.run->packs[task.pack];
-  task.predicted_ns = pack_costs_.predictNs(batch.run->outputs[packed.output].display->encoding,
-                                            packed.plane, packedPx(task));
-  if (batch.next_pack < batch.run->packs.size()) return;
+  task.pack = batch.next_pack;
+  const uint32_t row_count = rowsOfStrip(task);
+  if (batch.next_row == 0) batch.slice_row_count = sliceRowCount(task);
+  task.slice_row_count = batch.slice_row_count;
+  task.rows = {batch.next_row, std::min(task.slice_row_count, row_count - batch.next_row)};
+  task.predicted_ns = predictPackNs(task, task.rows.row_count);
+  batch.next_row += task.rows.row_count;
+  if (batch.next_row < row_count) return;
+  batch.next_row = 0;
+  if (++batch.next_pack < batch.run->packs.size()) return;
   batch.next_pack = 0;
   if (++batch.next_strip == batch.work->shape.strip_count) std::erase(batches_, task.batch);
+}
+
+// Halves, so that slices are bands or shares of one.
+uint32_t EncodeQueue::sliceRowCount(const EncodeTask& task) const {
+  const AtlasRun& run = *task.batch->run;
+  const PackedPlane& packed = run.packs[task.pack];
+  const uint32_t least =
+      leastSliceRowCount(run.outputs[packed.output].display->encoding, packed.plane);
+  uint32_t row_count = std::bit_ceil(rowsOfStrip(task));
+  while (row_count / 2 >= least && predictPackNs(task, row_count) > kPiece_ns) row_count /= 2;
+  return row_count;
+}
+
+int64_t EncodeQueue::predictPackNs(const EncodeTask& task, uint32_t row_count) const {
+  const AtlasRun& run = *task.batch->run;
+  const PackedPlane& packed = run.packs[task.pack];
+  return pack_costs_.predictNs(run.outputs[packed.output].display->encoding, packed.plane,
+                               uint64_t{run.picture->layout->size_px.width} * row_count);
 }
 
 // Those that hold them do not wait for the last of their work.

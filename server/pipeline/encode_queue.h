@@ -33,18 +33,23 @@ struct StripBatch {
   const StripWorkPtr work;
   uint32_t next_piece = 0;
   uint32_t made_count = 0;
-  uint32_t next_strip = 0;  // counts from the first of the work
-  size_t next_pack = 0;     // of that strip: place in AtlasRun::packs
+  uint32_t next_strip = 0;       // counts from the first of the work
+  size_t next_pack = 0;          // of that strip: place in AtlasRun::packs
+  uint32_t next_row = 0;         // of that plane, from the strip's first
+  uint32_t slice_row_count = 0;  // of that plane: rows that are packed at once
 };
 
 using StripBatchPtr = std::shared_ptr<StripBatch>;
 
-// A part of a batch: a piece of its work, or, once all are made, a plane of a strip to pack.
+// A part of a batch: a piece of its work, or, once all are made, a plane of a strip to pack. Where
+// that takes long, it is a slice of the plane: whole bands, or a share of one.
 struct EncodeTask {
   StripBatchPtr batch;
   bool is_strip = false;
-  uint32_t index = 0;  // of the piece, or the strip; counts from the first of the batch
-  size_t pack = 0;     // of the strip: place in AtlasRun::packs
+  uint32_t index = 0;            // of the piece, or the strip; counts from the first of the batch
+  size_t pack = 0;               // of the strip: place in AtlasRun::packs
+  BandRows rows = {};            // of the strip, from its first, that are packed
+  uint32_t slice_row_count = 0;  // of each slice of that plane but the last
   int64_t predicted_ns = 0;
 };
 
@@ -74,6 +79,8 @@ class EncodeQueue {
   void noteFilled();
   std::optional<EncodeTask> take();
   void takePack(EncodeTask& task);
+  uint32_t sliceRowCount(const EncodeTask& task) const;
+  int64_t predictPackNs(const EncodeTask& task, uint32_t row_count) const;
   void dropGivenUp();
   // The batch that the next part is of; nullptr = there is none.
   StripBatchPtr next() const;

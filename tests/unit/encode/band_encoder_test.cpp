@@ -133,6 +133,31 @@ TEST(BandEncoder, makesBandsThatJoinToTheJpegOfTheWholeImage) {
   }
 }
 
+// In slices of one, two or four rows of MCUs, or however many a lossless band is cut into.
+TEST(BandEncoder, makesSlicesThatJoinToTheirBand) {
+  BytePool pool(4);
+  BandEncoder encoder(pool);
+  const Picture picture({333, 391});
+  const AtlasLayout layout = layoutOf(picture.size_px);
+  for (const EncodingSpec& encoding :
+       {EncodingSpec{.chroma = Chroma::k420}, EncodingSpec{.chroma = Chroma::k444},
+        EncodingSpec{.jpeg_quality = 100}, EncodingSpec{.color = BandEncoding::kRaw}}) {
+    const uint32_t least = leastSliceRowCount(encoding, AtlasPlane::kColor);
+    EXPECT_EQ(8 * least, bandRowCount(encoding));
+    const std::vector<EncodedBand> bands = encodeAll(encoder, picture, encoding);
+    for (const uint32_t slice_rows : {least, 2 * least, 4 * least}) {
+      std::vector<EncodedBand> slices;
+      for (uint32_t row = 0; row < picture.size_px.height; row += slice_rows) {
+        const uint32_t row_count = std::min(slice_rows, picture.size_px.height - row);
+        slices.push_back(encoder.encode(picture.band(row, row_count), encoding, layout));
+      }
+      EXPECT_EQ(joined(slices), joined(bands)) << slice_rows << " rows";
+    }
+  }
+  EXPECT_EQ(leastSliceRowCount({.color = BandEncoding::kZstd}, AtlasPlane::kColor), 128u);
+  EXPECT_EQ(leastSliceRowCount({}, AtlasPlane::kDepth), 128u) << "as a Zstandard frame";
+}
+
 TEST(BandEncoder, makesABaselineJpegThatDecodesToThePicture) {
   BytePool pool(4);
   BandEncoder encoder(pool);

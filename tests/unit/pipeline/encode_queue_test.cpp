@@ -5,18 +5,21 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 namespace viewloom::encode_queue_test {
 namespace {
 
 // An atlas of several strips.
-AtlasRunPtr runOf(const std::string& name, int64_t deadline_ns, bool is_tracked = false) {
+AtlasRunPtr runOf(const std::string& name, int64_t deadline_ns, bool is_tracked = false,
+                  SizePx size_px = {64, 512}, const EncodingSpec& encoding = {}) {
   auto layout = std::make_shared<AtlasLayout>();
-  layout->size_px = layout->tile_size_px = {64, 512};
+  layout->size_px = layout->tile_size_px = size_px;
   auto picture = std::make_shared<TraceJob>();
   picture->layout = std::move(layout);
   auto display = std::make_shared<ActiveDisplay>();
   display->picture_key = name;
+  display->encoding = encoding;
   if (is_tracked) display->eyes = std::make_shared<EyeTrack>();
   return std::make_shared<AtlasRun>(AtlasJob{.picture_key = name, .deadline_ns = deadline_ns},
                                     std::move(picture), Pose{},
@@ -171,6 +174,33 @@ TEST_F(EncodeQueueTest, planesOfAStripArePackedOneByOne) {
       EXPECT_GT(task_->predicted_ns, 0);
       serve(1000);
     }
+  }
+}
+
+// A strip of 128 rows of a wide atlas takes long to pack.
+TEST_F(EncodeQueueTest, widePlanesArePackedInSlices) {
+  for (const auto& [color, least] :
+       {std::pair{BandEncoding::kJpeg, 16U}, std::pair{BandEncoding::kZstd, 128U}}) {
+    const AtlasRunPtr run = runOf("wide", 100, false, {16384, 300}, {.color = color});
+    push(run, 3);
+    uint32_t rows_left = 300;
+    for (uint32_t strip = 0; strip < 3; ++strip) {
+      const uint32_t row_count = run->strips.rowsOf(strip).row_count;
+      for (uint32_t row = 0; row < row_count; row += task_->rows.row_count) {
+        EXPECT_EQ(popName(), "wide strip " + std::to_string(strip));
+        EXPECT_EQ(task_->rows.first_row, row);
+        EXPECT_EQ(task_->rows.first_row % least, 0u);
+        if (least == 16) {
+          EXPECT_LE(task_->predicted_ns, kPiece_ns);
+        } else {
+          EXPECT_EQ(task_->rows.row_count, row_count) << "a Zstandard frame is whole";
+        }
+        rows_left -= task_->rows.row_count;
+        EXPECT_EQ(run->noteEncoded(task_->rows.row_count), rows_left == 0);
+        serve(task_->predicted_ns);
+      }
+    }
+    EXPECT_EQ(rows_left, 0u);
   }
 }
 
