@@ -45,20 +45,28 @@ class PlanarSweepTest : public testing::Test {
                         source_.sizePx());
   }
 
-  // In pieces of so many rows, from the last to the first, into memory of an older atlas.
-  Coverage sweep(const TraceJob& job, const TraceOutputs& outputs, uint32_t rows_per_piece) {
+  // In pieces of so many rows, and where that can be so many rows of the grid, from the last to the
+  // first, into memory of an older atlas.
+  Coverage sweep(const TraceJob& job, const TraceOutputs& outputs, uint32_t rows_per_piece,
+                 uint32_t grid_rows_per_piece = 1000) {
     const double inv_z_max = source_.measured().stats.inv_z_max;
     const SweepPlan plan = SweepPlan::make(job, inv_z_max).value();
     atlas_.begin(job, outputs);
     Coverage coverage;
     for (uint32_t piece = (plan.rowCount() + rows_per_piece - 1) / rows_per_piece; piece-- > 0;) {
       const uint32_t first = piece * rows_per_piece;
-      coverage.add(sweeper_.sweepRows({.job = &job,
-                                       .plan = &plan,
-                                       .source = source_.rowSource(),
-                                       .inv_z_max = float(inv_z_max)},
-                                      first, std::min(rows_per_piece, plan.rowCount() - first),
-                                      outputs, atlas_));
+      const SweepPicture picture{
+          .job = &job, .plan = &plan, .source = source_.rowSource(), .inv_z_max = float(inv_z_max)};
+      const uint32_t grid_rows = job.layout->rows;
+      const uint32_t step = ViewSweeper::canShareTiles(plan, *job.layout, outputs.color)
+                                ? std::min(grid_rows_per_piece, grid_rows)
+                                : grid_rows;
+      for (uint32_t row = 0; row < grid_rows; row += step) {
+        coverage.add(sweeper_.sweepRows(picture, first,
+                                        std::min(rows_per_piece, plan.rowCount() - first),
+                                        {row, std::min(row + step, grid_rows)}, outputs, atlas_));
+        ++piece_count_;
+      }
     }
     return coverage;
   }
@@ -94,6 +102,7 @@ class PlanarSweepTest : public testing::Test {
   ViewSweeper sweeper_;
   SweptAtlas atlas_;
   SweptAtlas first_;  // the same picture, swept before
+  size_t piece_count_ = 0;
 };
 
 TEST_F(PlanarSweepTest, givesThePlanesOfTheWholeAtlasHoweverRowsAreShared) {
@@ -116,6 +125,32 @@ TEST_F(PlanarSweepTest, givesThePlanesOfTheWholeAtlasHoweverRowsAreShared) {
         EXPECT_TRUE(atlas_.mask == mask);
         EXPECT_TRUE(atlas_.color.empty());
       }
+    }
+  }
+}
+
+// Rows of tiles of one row of the plan, each swept apart.
+TEST_F(PlanarSweepTest, givesTheSameAtlasWhereTilesAreShared) {
+  for (const SizePx size_px : kAtlases_px) {
+    const TraceJob job = jobOf(quilt(size_px));
+    for (const ColorForm form : {ColorForm::kRgba, ColorForm::kYcbcr420, ColorForm::kYcbcr444}) {
+      SCOPED_TRACE(testing::Message()
+                   << size_px.width << "x" << size_px.height << ", form " << int(form));
+      const TraceOutputs outputs{.color = form, .depth = true, .mask = true};
+      piece_count_ = 0;
+      const Coverage coverage = sweep(job, outputs, 2);
+      const size_t whole_count = piece_count_;
+      const SweptAtlas whole = atlas_;
+      atlas_.begin(job, outputs);
+      fillPlanes(0xa5);
+      std::ranges::fill(atlas_.ycbcr, uint8_t{0xa5});
+      EXPECT_EQ(sweep(job, outputs, 2, 1), coverage);
+      const size_t grid_rows = keepsPairsInTiles(*job.layout, form) ? job.layout->rows : 1;
+      EXPECT_EQ(piece_count_, whole_count * (1 + grid_rows));
+      EXPECT_TRUE(atlas_.color == whole.color);
+      EXPECT_TRUE(atlas_.ycbcr == whole.ycbcr);
+      EXPECT_TRUE(atlas_.depth == whole.depth);
+      EXPECT_TRUE(atlas_.mask == whole.mask);
     }
   }
 }

@@ -88,9 +88,9 @@ struct PictureSweep final : Plan {
   }
 
   const SweepPlan plan;
-  void note(uint64_t row_count, int64_t measured_ns) const {
-    px_cost->note(row_count * row_px, measured_ns);
-    of_all->note(row_count * row_px, measured_ns);
+  void note(uint64_t px_count, int64_t measured_ns) const {
+    px_cost->note(px_count, measured_ns);
+    of_all->note(px_count, measured_ns);
   }
 
   const double inv_z_max;                       // of the source, 1/m
@@ -99,18 +99,29 @@ struct PictureSweep final : Plan {
   const std::shared_ptr<CostEstimate> px_cost;  // of this picture
 };
 
-// How the rows of a plan are cut into pieces of bounded work.
+// How the rows of a plan are cut into pieces of bounded work: some rows each, and of a pair of rows
+// that takes too long, some rows of the grid of tiles.
 struct SweepPieces {
-  explicit SweepPieces(const PictureSweep& sweep) {
-    const uint64_t rows = sweep.px_cost->unitsFor(kPiece_ns) / sweep.row_px;
+  SweepPieces(const PictureSweep& sweep, const AtlasLayout& layout, ColorForm form)
+      : grid_row_count(layout.rows) {
+    const uint64_t px_max = sweep.px_cost->unitsFor(kPiece_ns);
     // Pairs of rows stay together.
-    while (row_count > 2 && row_count > rows) row_count /= 2;
-    piece_count = (sweep.plan.rowCount() + row_count - 1) / row_count;
-    piece_ns = sweep.px_cost->predictNs(row_count * sweep.row_px);
+    while (row_count > 2 && row_count * sweep.row_px > px_max) row_count /= 2;
+    const auto pxOfPiece = [&] { return row_count * sweep.row_px * grid_row_count / layout.rows; };
+    if (ViewSweeper::canShareTiles(sweep.plan, layout, form)) {
+      while (grid_row_count > 1 && pxOfPiece() > px_max) grid_row_count = (grid_row_count + 1) / 2;
+    }
+    grid_piece_count = (layout.rows + grid_row_count - 1) / grid_row_count;
+    piece_count = (sweep.plan.rowCount() + row_count - 1) / row_count * grid_piece_count;
+    px_count = pxOfPiece();
+    piece_ns = sweep.px_cost->predictNs(px_count);
   }
 
   uint32_t row_count = kRowsPerPieceMax;  // of a piece
+  uint32_t grid_row_count;                // likewise
+  uint32_t grid_piece_count = 1;          // pieces of the same rows
   uint32_t piece_count = 0;
+  uint64_t px_count = 0;  // of a piece, at most
   int64_t piece_ns = 0;
 };
 
@@ -123,7 +134,7 @@ class AtlasSweep final : public StripWork {
                    .piece_count = pieces.piece_count,
                    .piece_ns = pieces.piece_ns,
                    .begins_with_one = true}),
-        rows_per_piece_(pieces.row_count),
+        pieces_(pieces),
         order_(std::move(order)),
         planes_(planes),
         atlas_(std::move(atlas)),
@@ -134,7 +145,7 @@ class AtlasSweep final : public StripWork {
   }
 
   void notePiece(int64_t measured_ns) override {
-    sweepOf(order_).note(rows_per_piece_, measured_ns);
+    sweepOf(order_).note(pieces_.px_count, measured_ns);
   }
 
   // The first one takes memory for all; each touches what it writes.
@@ -142,14 +153,18 @@ class AtlasSweep final : public StripWork {
     if (piece == 0) atlas_->planes.begin(*order_.picture, planes_);
     const SweepPlan& plan = sweepOf(order_).plan;
     const SweepSource& source = sourceOf(*order_.frames.front());
-    const uint32_t first = piece * rows_per_piece_;
+    const uint32_t first = piece / pieces_.grid_piece_count * pieces_.row_count;
+    const uint32_t first_in_grid = piece % pieces_.grid_piece_count * pieces_.grid_row_count;
+    const uint32_t end_in_grid =
+        std::min(first_in_grid + pieces_.grid_row_count, order_.picture->layout->rows);
     std::unique_ptr<ViewSweeper> sweeper = sweepers_->take();
-    const Coverage coverage = sweeper->sweepRows(
-        {.job = order_.picture.get(),
-         .plan = &plan,
-         .source = source.rowSource(),
-         .inv_z_max = float(source.measured().stats.inv_z_max)},
-        first, std::min(rows_per_piece_, plan.rowCount() - first), planes_, atlas_->planes);
+    const Coverage coverage =
+        sweeper->sweepRows({.job = order_.picture.get(),
+                            .plan = &plan,
+                            .source = source.rowSource(),
+                            .inv_z_max = float(source.measured().stats.inv_z_max)},
+                           first, std::min(pieces_.row_count, plan.rowCount() - first),
+                           {first_in_grid, end_in_grid}, planes_, atlas_->planes);
     sweepers_->putBack(std::move(sweeper));
     std::lock_guard lock(mutex_);
     counts_.coverage.add(coverage);
@@ -177,7 +192,7 @@ class AtlasSweep final : public StripWork {
   }
 
  private:
-  const uint32_t rows_per_piece_;
+  const SweepPieces pieces_;
   const AtlasOrder order_;
   const TraceOutputs planes_;
   const std::shared_ptr<HeldAtlas> atlas_;  // holding it keeps it from reuse
@@ -192,7 +207,7 @@ class SweepMaking final : public Making {
   SweepMaking(AtlasOrder order, const TraceOutputs& planes, std::shared_ptr<HeldAtlas> atlas,
               std::shared_ptr<SweeperShelf> sweepers, HandOn hand_on)
       : planes_(planes), hand_on_(std::move(hand_on)) {
-    const SweepPieces pieces(AtlasSweep::sweepOf(order));
+    const SweepPieces pieces(AtlasSweep::sweepOf(order), *order.picture->layout, planes_.color);
     work_ = std::make_unique<AtlasSweep>(pieces, std::move(order), planes_, std::move(atlas),
                                          std::move(sweepers));
   }

@@ -207,7 +207,7 @@ void ViewSweeper::sweepSample(Piece& piece, uint32_t index, uint32_t sample, con
 }
 
 Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row, uint32_t row_count,
-                                const TraceOutputs& outputs, SweptAtlas& atlas) {
+                                GridRows grid, const TraceOutputs& outputs, SweptAtlas& atlas) {
   const TraceJob& job = *picture.job;
   Piece piece = {.picture = picture,
                  .outputs = outputs,
@@ -219,19 +219,25 @@ Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row,
                  .atlas = atlas,
                  .coverage = {}};
   VIEWLOOM_CHECK(picture.plan->colorForm(outputs.color) == outputs.color);
-  atlas.clearUnused(job, outputs, clearedWith(picture, first_row, row_count));
+  if (grid.first == 0) {
+    atlas.clearUnused(job, outputs, clearedWith(picture, first_row, row_count));
+  }
   builder_.begin(picture.source, picture.plan->colorReach());
   if (outputs.color == ColorForm::kRgba) {
     for (uint32_t index = first_row; index < first_row + row_count; ++index) {
       sweepRow(
-          piece, index, [](uint32_t) { return true; },
+          piece, index,
+          [&](uint32_t tile) {
+            const uint32_t grid_row = tile / job.layout->columns;
+            return grid.first <= grid_row && grid_row < grid.end;
+          },
           [&](uint32_t tile, uint32_t tile_row) {
             return atlas.color.data() + firstPixel(*job.layout, tile, tile_row);
           });
     }
     return piece.coverage;
   }
-  ycbcr_rows_.begin(*job.layout, outputs.color, first_row, row_count);
+  ycbcr_rows_.begin(*job.layout, outputs.color, first_row, row_count, grid);
   ycbcr_rows_.forEachStep(atlas.ycbcr.data(), [&](YcbcrRows::Step step) {
     sweepRow(
         piece, step.tile_row, [&](uint32_t tile) { return ycbcr_rows_.takes(tile, step); },

@@ -30,7 +30,16 @@ class ViewSweeper {
   // Rows of the plan: all that views see along them. The plan can colour in the form of `outputs`;
   // but for kRgba, rows are those of all tiles, and some may move to a neighbouring piece.
   Coverage sweepRows(const SweepPicture& picture, uint32_t first_row, uint32_t row_count,
-                     const TraceOutputs& outputs, SweptAtlas& atlas);
+                     const TraceOutputs& outputs, SweptAtlas& atlas) {
+    return sweepRows(picture, first_row, row_count, {0, picture.job->layout->rows}, outputs, atlas);
+  }
+  // The same of some rows of tiles alone, where canShareTiles().
+  Coverage sweepRows(const SweepPicture& picture, uint32_t first_row, uint32_t row_count,
+                     GridRows grid, const TraceOutputs& outputs, SweptAtlas& atlas);
+  // Whether rows of the plan can be swept by rows of tiles.
+  static bool canShareTiles(const SweepPlan& plan, const AtlasLayout& layout, ColorForm form) {
+    return plan.lensPieces() == nullptr && keepsPairsInTiles(layout, form);
+  }
 
  private:
   struct Piece;

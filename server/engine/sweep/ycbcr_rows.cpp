@@ -11,11 +11,12 @@ constexpr uint32_t kBlack = 0;
 }  // namespace
 
 void YcbcrRows::begin(const AtlasLayout& layout, ColorForm form, uint32_t first_row,
-                      uint32_t row_count) {
+                      uint32_t row_count, GridRows grid) {
   layout_ = &layout;
   form_ = form;
   first_row_ = first_row;
   end_row_ = first_row + row_count;
+  grid_ = grid;
   stride_px_ = YcbcrLayout(layout.size_px, form).luma_stride;
   const size_t count = (size_t{layout.rows} + 1) * 2 * stride_px_;
   rows_.reserve(count);
@@ -23,6 +24,7 @@ void YcbcrRows::begin(const AtlasLayout& layout, ColorForm form, uint32_t first_
 }
 
 bool YcbcrRows::takesRow(uint32_t grid_row, Step step) const {
+  if (grid_row < grid_.first || grid_row >= grid_.end) return false;
   const auto isInPiece = [&](uint32_t row) { return first_row_ <= row && row < end_row_; };
   if (form_ == ColorForm::kYcbcr444) return !step.is_crossing && isInPiece(step.tile_row);
   const bool is_upper = atlasRow(grid_row, step) % 2 == 0;

@@ -11,6 +11,18 @@
 
 namespace viewloom {
 
+// Rows [first, end) of the grid of tiles.
+struct GridRows {
+  uint32_t first = 0;
+  uint32_t end = 0;
+};
+
+// Whether no pair of rows of chroma crosses from one row of tiles to the next.
+inline bool keepsPairsInTiles(const AtlasLayout& layout, ColorForm form) {
+  return form != ColorForm::kYcbcr420 ||
+         (layout.padding_top_px % 2 == 0 && layout.tile_size_px.height % 2 == 0);
+}
+
 // Chroma of 4:2:0 takes two rows of the atlas, and where tiles have an odd height or place, such a
 // pair begins on an odd row of a tile, or crosses from tile to tile. So a piece of a sweep takes
 // the pairs that belong to its rows, and its last piece those that cross. Rows stay in the cache
@@ -25,8 +37,10 @@ class YcbcrRows {
   };
 
   // The piece's rows of tiles; the atlas is black where nothing will be coloured. `form`: not
-  // kRgba. The layout must stay.
-  void begin(const AtlasLayout& layout, ColorForm form, uint32_t first_row, uint32_t row_count);
+  // kRgba. The layout must stay. Only tiles in these rows of the grid are taken: all of them, or
+  // no pairs of rows cross.
+  void begin(const AtlasLayout& layout, ColorForm form, uint32_t first_row, uint32_t row_count,
+             GridRows grid);
 
   // Calls sweep(step) for every row of which some tile is to be coloured, then converts what is
   // complete into `planes`.
@@ -68,6 +82,7 @@ class YcbcrRows {
   ColorForm form_ = ColorForm::kYcbcr420;
   uint32_t first_row_ = 0;
   uint32_t end_row_ = 0;
+  GridRows grid_;
   uint32_t stride_px_ = 0;
   AlignedArray<uint32_t> rows_;  // [row of the grid + 1, of a pair's upper half][half][stride_px_]
 };
