@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -156,6 +157,7 @@ class PartsTest : public GpuTest {
     std::vector<float> depth;
     std::vector<uint8_t> mask;
     Coverage coverage;
+    std::vector<uint64_t> means;  // texels of each piece of them
     size_t part_count = 0;
     size_t narrow_count = 0;  // of them, those of columns
     size_t after_count = 0;   // those that merge or settle what others have walked
@@ -183,26 +185,35 @@ class PartsTest : public GpuTest {
         truth::takePicture(instant, camera, {.size_px = kSource_px, .layer_count = 2}), 2);
   }
 
-  static Picture trace(const Frame& frame, const DisplaySpec& spec, uint64_t ray_count_max) {
+  // With means of colour in pieces of so many texels before; 0 = in one go.
+  static Picture trace(const Frame& frame, const DisplaySpec& spec, uint64_t ray_count_max,
+                       uint64_t texel_count_max = 0) {
     const BuiltFrame built(device(), shared<StructureBuilder>(),
                            std::make_shared<const Frame>(frame));
     std::vector<SeenSource> sources;
     for (const SourceFormat& source : frame.format.sources) sources.push_back(seenSource(source));
     const auto layout = std::make_shared<const AtlasLayout>(
-        makeAtlasLayout(spec, streamDefaults(sources.front().camera.intrinsics, kSource_px,
-                                             built.structure.stats().front()))
+        makeAtlasLayout(spec,
+                        streamDefaults(sources.front().camera.intrinsics, sources.front().size_px,
+                                       built.structure.stats().front()))
             .value());
     const TraceJob job =
         makeTraceJob(layout, spec, displayPose(spec, sources.front().camera), sources);
     const BandRows band{.first_row = 0, .row_count = layout->size_px.height};
-    TraceSlot slot(device(),
-                   slotShape(job, band.row_count, {.depth = true, .mask = true, .linear = true}));
+    constexpr TraceOutputs kOutputs{.depth = true, .mask = true, .linear = true};
+    TraceSlot slot(device(), slotShape(job, band.row_count, kOutputs));
     CommandRecorder recorder(device());
     Timeline timeline(device());
     ViewTracer tracer(device());
     const Commands commands = recorder.begin();
     Picture picture;
     const auto structures = built.structure.parts();
+    while (texel_count_max > 0) {
+      const uint64_t texel_count =
+          tracer.recordMeans(commands, structures, job, kOutputs, texel_count_max);
+      if (texel_count == 0) break;
+      picture.means.push_back(texel_count);
+    }
     for (BandParts parts = ViewTracer::partsOf(structures, job, band); !parts.isOver();
          ++picture.part_count) {
       const BandPart part = parts.take(ray_count_max);
@@ -281,6 +292,18 @@ TEST_F(PartsTest, walkTheSameSampleBySample) {
       .aperture_radius_m = 0.03, .focus_distance_m = 1.5, .walked_count = 4, .gathered_count = 0};
   expectSameWalks(*one, specOf(seen_through), true);
   expectSameWalks(*twice(*one), specOf(seen_through), true);
+}
+
+// The least that is made at once is a row of strips, which a wide source has shorter ones of.
+TEST_F(PartsTest, takeMeansOfWideSourcesInShortPieces) {
+  const FramePtr wide = test::syntheticFrame(1, {16384, 64}, 2);
+  const Picture whole = trace(*wide, specOf({}), kPartRays);
+  const Picture cut = trace(*wide, specOf({}), kPartRays, 1);
+  ASSERT_FALSE(cut.means.empty());
+  EXPECT_LE(std::ranges::max(cut.means), uint64_t{1} << 18);
+  EXPECT_EQ(std::accumulate(cut.means.begin(), cut.means.end(), uint64_t{0}),
+            uint64_t{16384} * 64 * 2);
+  EXPECT_TRUE(cut == whole);
 }
 
 TEST_F(PartsTest, gatherTheSameInColumns) {

@@ -30,7 +30,7 @@ WalkCosts startCosts(const Device& device) {
   constexpr double kSoftwareRay_ns = 2000;
   constexpr double kHardwareRay_ns = 5;
   // Answers, px and texels take some arithmetic each, and no walk.
-  constexpr double kSoftwareOther_ns = 100;
+  constexpr double kSoftwareOther_ns = 30;
   constexpr double kHardwareOther_ns = 1;
   constexpr double kGatheredRay_ns = 20;
   const bool is_software = device.info().is_software;

@@ -22,6 +22,8 @@ constexpr DescriptorSlot kMeanColorSlots[] = {
 // Px of a strip share what they load, and what an invocation costs before it does anything; on
 // hardware neighbouring invocations would then load what lies apart.
 constexpr uint32_t kStripOnSoftware_px = 32;
+// Texels of a row of strips, which is the least that is made at once: some milliseconds.
+constexpr uint64_t kStripTexelsMax = uint64_t{1} << 18;
 
 bool isAveraged(const StructureSlot& structure, const ColorReach& reach) {
   return !reach.isNone() && structure.shape().canAverageColor();
@@ -53,11 +55,16 @@ MeanColorPass::Variant MeanColorPass::variantOf(const StructureSlot& structure,
           .format = axis.format,
           .is_along_y = axis.is_y,
           .tap_count = tapCount(axis.reach_px),
-          .strip_px = stripPx()};
+          .strip_px = stripPx(structure)};
 }
 
-uint32_t MeanColorPass::stripPx() const {
-  return device_.info().is_software ? kStripOnSoftware_px : 1;
+uint32_t MeanColorPass::stripPx(const StructureSlot& structure) const {
+  if (!device_.info().is_software) return 1;
+  const uint64_t row_texels =
+      uint64_t{structure.shape().depth_px.width} * structure.shape().layerCount();
+  uint32_t strip_px = kStripOnSoftware_px;
+  while (strip_px > abi::kBlockPx && strip_px * row_texels > kStripTexelsMax) strip_px /= 2;
+  return strip_px;
 }
 
 uint32_t MeanColorPass::formatOf(const StructureSlot& structure, const ColorReach& reach) {
@@ -114,7 +121,7 @@ uint64_t MeanColorPass::recordRows(Commands commands, const StructureSlot& struc
 void MeanColorPass::recordMeans(Commands commands, const StructureSlot& structure,
                                 const Averages& averages, uint32_t row_count,
                                 MeanColor::Planes& planes) {
-  const uint32_t strip_px = stripPx();
+  const uint32_t strip_px = stripPx(structure);
   const uint32_t left = structure.shape().depth_px.height - planes.made_row_count;
   if (left == 0) return;
   const uint32_t whole = std::max(row_count / strip_px, 1U) * strip_px;
@@ -133,7 +140,7 @@ void MeanColorPass::recordAlong(Commands commands, const StructureSlot& structur
                                 const Average& average, Rows rows, const LayeredBuffer& from,
                                 const LayeredBuffer& to) {
   const Axis& axis = average.axis;
-  const uint32_t strip_px = stripPx();
+  const uint32_t strip_px = stripPx(structure);
   const SizePx size_px = structure.shape().depth_px;
   const uint32_t layer_count = structure.shape().layerCount();
   abi::AveragePush push{.layers = {},

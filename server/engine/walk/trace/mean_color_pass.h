@@ -61,7 +61,7 @@ class MeanColorPass {
   static std::array<Axis, 2> axesOf(const StructureSlot& structure, const ColorReach& reach);
   Averages averagesOf(const StructureSlot& structure, const ColorReach& reach);
   Variant variantOf(const StructureSlot& structure, const Axis& axis) const;
-  uint32_t stripPx() const;
+  uint32_t stripPx(const StructureSlot& structure) const;
   // A mean along x takes means along y of its own row alone: rows are made one after the other.
   void recordMeans(Commands commands, const StructureSlot& structure, const Averages& averages,
                    uint32_t row_count, MeanColor::Planes& planes);
