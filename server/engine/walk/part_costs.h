@@ -39,10 +39,17 @@ class PartCosts {
  private:
   static constexpr size_t kKindCount = size_t(RayKind::kMeans) + 1;
 
+  // Reflected rays are counted as if all px were rough.
+  static double startOf(RayKind kind, double ray_ns, double other_ns) {
+    constexpr double kReflectedShare = 0.25;
+    if (kind == RayKind::kReflected) return kReflectedShare * ray_ns;
+    return kind < RayKind::kAnswers ? ray_ns : other_ns;
+  }
+
   template <size_t... kKinds>
   static std::array<CostEstimate, kKindCount> all(double ray_ns, double other_ns,
                                                   std::index_sequence<kKinds...>) {
-    return {CostEstimate(kKinds < size_t(RayKind::kAnswers) ? ray_ns : other_ns)...};
+    return {CostEstimate(startOf(RayKind(kKinds), ray_ns, other_ns))...};
   }
 
   std::array<CostEstimate, kKindCount> estimates_;

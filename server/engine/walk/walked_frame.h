@@ -31,7 +31,7 @@ struct StructureWorks {
 
  private:
   // Until something was measured, as slow as a software device with one core.
-  static constexpr double kBuiltPxStart_ns = 50;
+  static constexpr double kBuiltPxStart_ns = 30;
 };
 
 // Memory that all builds of a stream share, one after the other.

@@ -24,6 +24,7 @@ BandParts::BandParts(const TraceJob& job, BandRows rows, bool gathers)
   if (reflects_) {
     row_rays_ =
         width_px * job.walk_count * job.reflection->bounce_count * job.reflection->sample_count;
+    if (walk_count_ > 1) step_count_ = job.reflection->bounce_count * job.reflection->sample_count;
   } else if (gathers_) {
     row_rays_ =
         std::max<uint64_t>(width_px * job.layout->lens->gathered_count / kGatheredPerWalked, 1);
@@ -37,7 +38,9 @@ BandPart BandParts::take(uint64_t ray_count_max) {
   part.ray_count = rayCount(part);
   const bool has_all_px = part.first_row == 0 && part.end_row == row_count_ && hasWholeRows(part);
   part.merges = kind_ == PartKind::kMerge || (part.walks() && hasWholeRows(part));
-  part.settles = has_all_px && kind_ == (reflects_ ? PartKind::kReflect : PartKind::kWalk);
+  const bool has_all_steps = part.end_step - part.first_step == step_count_;
+  part.settles =
+      has_all_px && has_all_steps && kind_ == (reflects_ ? PartKind::kReflect : PartKind::kWalk);
   goOnFrom(part);
   part.is_last = is_over_;
   return part;
@@ -50,16 +53,15 @@ BandPart BandParts::next(uint64_t ray_count_max) const {
     return takeSamples(ray_count_max);
   }
   const bool has_row = beginsRow() && ray_count_max >= rowRays();
-  if (kind_ != PartKind::kMerge && (has_row || isOfWholeRows())) return takeRows(ray_count_max);
+  if (kind_ != PartKind::kMerge && (has_row || kind_ == PartKind::kSettle))
+    return takeRows(ray_count_max);
+  const uint64_t group_rays = rowRays() * abi::kTraceGroupSize / width_px_;
+  if (step_ > 0 || (kind_ == PartKind::kReflect && step_count_ > 1 && ray_count_max < group_rays)) {
+    return takeSteps(ray_count_max);
+  }
   const bool has_walk = walk_count_ > 1 && column_ == 0 && ray_count_max >= width_px_;
   if (kind_ == PartKind::kWalk && has_walk) return takeWalks(ray_count_max);
   return takeColumns(ray_count_max);
-}
-
-// Listed blocks have no columns, and a row of px is settled soon.
-bool BandParts::isOfWholeRows() const {
-  const bool is_listed = gathers_ && metRound(sample_, sample_count_).first > 0;
-  return kind_ == PartKind::kSettle || (kind_ == PartKind::kWalk && is_listed);
 }
 
 bool BandParts::needsSettling() const {
@@ -76,7 +78,9 @@ uint64_t BandParts::rowRays() const {
 uint64_t BandParts::rayCount(const BandPart& part) const {
   const uint64_t columns = part.end_column - part.first_column;
   const uint64_t px_count = columns * (part.end_row - part.first_row);
-  if (!part.walks()) return rowRays() * px_count / width_px_;
+  if (!part.walks()) {
+    return rowRays() * px_count / width_px_ * (part.end_step - part.first_step) / step_count_;
+  }
   return px_count * (part.end_walk - part.first_walk) * (part.end_sample - part.first_sample);
 }
 
@@ -92,7 +96,8 @@ BandPart BandParts::wholeRow() const {
           .first_row = row_,
           .end_row = row_ + 1,
           .end_column = width_px_,
-          .end_walk = walk_count_};
+          .end_walk = walk_count_,
+          .end_step = step_count_};
 }
 
 BandPart BandParts::takeSamples(uint64_t ray_count_max) const {
@@ -139,7 +144,19 @@ BandPart BandParts::takeColumns(uint64_t ray_count_max) const {
   return part;
 }
 
+// Some of what one group of px mirrors.
+BandPart BandParts::takeSteps(uint64_t ray_count_max) const {
+  BandPart part = takeColumns(1);
+  const uint64_t columns = part.end_column - part.first_column;
+  const uint64_t steps = std::max<uint64_t>(ray_count_max / (columns * walk_count_), 1);
+  part.first_step = step_;
+  part.end_step = uint32_t(std::min<uint64_t>(step_ + steps, step_count_));
+  return part;
+}
+
 void BandParts::goOnFrom(const BandPart& part) {
+  step_ = part.end_step % step_count_;
+  if (step_ > 0) return;
   column_ = part.end_column % width_px_;
   if (column_ > 0) return;
   if (part.walks() && walk_count_ > 1 && !part.merges) {

@@ -10,8 +10,8 @@
 namespace viewloom {
 
 // A part has no more rays than this, unless those of the least that there can be are more: of a
-// walk kWalkColumns_px px in one structure, of what is settled and of listed blocks a row, else as
-// many columns of a row as a group has invocations.
+// walk kWalkColumns_px px in one structure, of what is settled a row, else as many columns of a row
+// as a group has invocations. In several structures those mirror bounce by bounce.
 inline constexpr uint64_t kPartRays = uint64_t{1} << 21;
 // Rays of the second stage of a lens that are counted as one that is walked: fewer than it takes.
 inline constexpr uint64_t kGatheredPerWalked = 4;
@@ -28,11 +28,12 @@ enum class RayPaths : uint8_t { kAll, kMiddle, kThroughLens };
 
 // Rows [first_row, end_row) of a band. Samples [first_sample, end_sample) are walked; where several
 // are, in all rows. Parts of the other kinds are of first_sample. Where listed blocks are walked,
-// rows are a share of the list.
+// its share of the band is one of the list.
 //
 // A part of one row may have only px [first_column, end_column) of it, which begin with a group of
 // invocations. If the row is walked in several structures, it may have only those
-// [first_walk, end_walk), and parts that merge the row follow.
+// [first_walk, end_walk), and parts that merge the row follow. What px mirror in several structures
+// is found in as many steps as it has samples and bounces; a part may have only some of them.
 struct BandPart {
   PartKind kind = PartKind::kWalk;
   uint32_t first_sample = 0;
@@ -43,6 +44,8 @@ struct BandPart {
   uint32_t end_column = 0;
   uint32_t first_walk = 0;
   uint32_t end_walk = 0;
+  uint32_t first_step = 0;
+  uint32_t end_step = 0;
   RayPaths paths = RayPaths::kAll;
   // Gathered ones as so many walked, reflected ones as if all px were rough. Of merged answers one
   // each, of settled px one each.
@@ -76,9 +79,9 @@ class BandParts {
   BandPart takeRows(uint64_t ray_count_max) const;
   BandPart takeWalks(uint64_t ray_count_max) const;
   BandPart takeColumns(uint64_t ray_count_max) const;
+  BandPart takeSteps(uint64_t ray_count_max) const;
   BandPart wholeRow() const;
-  bool beginsRow() const { return column_ == 0 && walk_ == 0 && !is_past_middle_; }
-  bool isOfWholeRows() const;
+  bool beginsRow() const { return column_ == 0 && walk_ == 0 && step_ == 0 && !is_past_middle_; }
   bool needsSettling() const;
   uint64_t rowRays() const;
   uint64_t rayCount(const BandPart& part) const;
@@ -88,6 +91,7 @@ class BandParts {
 
   uint64_t row_rays_ = 1;  // of reflected or gathered ones
   uint32_t walk_count_ = 1;
+  uint32_t step_count_ = 1;  // of what mirrors in several structures
   uint32_t sample_count_ = 0;
   uint32_t row_count_ = 0;
   uint32_t width_px_ = 0;
@@ -100,6 +104,7 @@ class BandParts {
   uint32_t row_ = 0;
   uint32_t walk_ = 0;
   uint32_t column_ = 0;
+  uint32_t step_ = 0;
   bool is_past_middle_ = false;
   bool is_first_ = true;
   bool is_over_ = false;

@@ -194,10 +194,11 @@ void PathMirrorPass::record(Commands commands, std::span<const StructureSlot* co
     push.band_row = row;
     std::vector<Piece> pieces =
         describe(structures, piece_rows, {.sample = part.first_sample}, row);
-    for (push.sample_index = 0; push.sample_index < push.sample_count; ++push.sample_index) {
-      for (push.bounce = 0; push.bounce < push.bounce_count; ++push.bounce) {
-        recordBounce(commands, pieces, piece_rows, push);
-      }
+    // What is known of the rays stays in memory from one part to the next.
+    for (uint32_t step = part.first_step; step < part.end_step; ++step) {
+      push.sample_index = step / push.bounce_count;
+      push.bounce = step % push.bounce_count;
+      recordBounce(commands, pieces, piece_rows, push);
     }
   }
 }

@@ -154,16 +154,22 @@ uint64_t WalkPass::recordMeans(Commands commands, const Walk& walk, uint64_t tex
 // As many groups as the list has. A share of it is taken as if all blocks were listed, as nobody
 // but the device knows how many are: groups behind its end have nothing to do.
 void WalkPass::recordListed(Commands commands, const ComputePass& pass, const abi::TracePush& push,
-                            const Walk& walk, BandRows rows, RowSpan span, const TraceSlot& slot) {
-  if (!walk.rays.is_of_blocks || span.end - span.first == rows.row_count) {
+                            const Walk& walk, BandRows rows, const Px& px, const TraceSlot& slot) {
+  const uint64_t width_px = walk.job.layout->size_px.width;
+  const uint64_t first = px.rows.first * width_px + px.columns.first;
+  const uint64_t end = (px.rows.end - 1) * width_px + px.columns.end;
+  const uint64_t area_px = rows.row_count * width_px;
+  if (!walk.rays.is_of_blocks || end - first == area_px) {
     pass.recordIndirect(commands, push, slot.incomplete(), kGroupsOffset);
     return;
   }
   const MetBlocks blocks = metBlocks(*walk.job.layout, rows);
   const uint64_t group_count =
       groupCount(blocks.per_row * blocks.row_count * abi::kMetBlockSide_px);
-  const auto groupAt = [&](uint32_t row) { return uint32_t(row * group_count / rows.row_count); };
-  const GroupColumns groups{groupAt(span.first), groupAt(span.end)};
+  const auto groupAt = [&](uint64_t px_index) {
+    return uint32_t(px_index * group_count / area_px);
+  };
+  const GroupColumns groups{groupAt(first), groupAt(end)};
   if (groups.first < groups.end) pass.recordColumns(commands, push, groups, 1);
 }
 
@@ -177,7 +183,7 @@ void WalkPass::record(Commands commands, const Walk& walk, BandRows rows, const 
   abi::TracePush push = tracePush(walk, color.texels, rows);
   push.band_row = px.rows.first;
   if (walk.rays.areListed()) {
-    recordListed(commands, walk_views, push, walk, rows, px.rows, slot);
+    recordListed(commands, walk_views, push, walk, rows, px, slot);
     return;
   }
   const AtlasLayout& layout = *walk.job.layout;

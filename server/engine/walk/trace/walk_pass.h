@@ -23,7 +23,7 @@ class WalkPass {
 
   // Rays of some px of the slot's band, which has these rows of the atlas. Where spans follow each
   // other, all px are walked once: invocations take runs of px, so that those at the ends may not
-  // be the span's own. Of a list of blocks it is a share like that of the rows in the band.
+  // be the span's own. Of a list of blocks it is a share like that of the px in the band.
   struct Px {
     RowSpan rows;
     ColumnSpan columns;
@@ -64,7 +64,7 @@ class WalkPass {
                                           const LayeredBuffer& color, const TraceSlot& slot,
                                           const Descriptor& target);
   static void recordListed(Commands commands, const ComputePass& pass, const abi::TracePush& push,
-                           const Walk& walk, BandRows rows, RowSpan span, const TraceSlot& slot);
+                           const Walk& walk, BandRows rows, const Px& px, const TraceSlot& slot);
 
   const Device& device_;
   MeanColorPass& mean_color_;
