@@ -155,6 +155,7 @@ WalkMaking::WalkMaking(WalkTools tools, AtlasOrder order, std::shared_ptr<StripT
     : tools_(std::move(tools)),
       order_(std::move(order)),
       picture_(tracedPicture(order_)),
+      device_(static_cast<const WalkPlan&>(*order_.plan).device),
       costs_(static_cast<const WalkPlan&>(*order_.plan).costs),
       hand_on_(std::move(hand_on)),
       structures_(structuresOf(order_)),
@@ -199,23 +200,22 @@ MakingStep WalkMaking::makePart() {
 // that needs them goes on with them.
 MakingStep WalkMaking::stepMeans() {
   CommandRecorder& recorder = nextRecorder();
-  const uint64_t texel_count =
-      tools_.tracer.recordMeans(recorder.begin(), structures_, *picture_, order_.planes,
-                                costs_->on_device[RayKind::kMeans].unitsFor(kPiece_ns));
+  const Rays texels = raysOf(RayKind::kMeans);
+  const uint64_t texel_count = tools_.tracer.recordMeans(
+      recorder.begin(), structures_, *picture_, order_.planes, texels.cost.unitsFor(kPiece_ns));
   if (texel_count == 0) return {};
-  return {.predicted_ns = submit(recorder, RayKind::kMeans, texel_count)};
+  return {.predicted_ns = submit(recorder, texels, texel_count)};
 }
 
 MakingStep WalkMaking::stepPart() {
   const BandRows rows = order_.strips.rowsOf(strip_);
   if (!parts_) parts_.emplace(ViewTracer::partsOf(structures_, *picture_, rows));
-  const RayKind kind = kindOf(parts_->kind());
-  const uint64_t ray_count_max = std::min(kPartRays, costs_->on_device[kind].unitsFor(kPiece_ns));
-  const BandPart part = parts_->take(ray_count_max);
+  const Rays rays = raysOf(kindOf(parts_->kind()));
+  const BandPart part = parts_->take(std::min(kPartRays, rays.cost.unitsFor(kPiece_ns)));
   CommandRecorder& recorder = nextRecorder();
   tools_.tracer.recordPart(recorder.begin(), structures_, *picture_, rows, part, trace_->slot);
   const uint64_t ray_count = ViewTracer::rayCount(structures_, *picture_, part);
-  MakingStep step{.predicted_ns = submit(recorder, kind, ray_count)};
+  MakingStep step{.predicted_ns = submit(recorder, rays, ray_count)};
   if (!part.is_last) return step;
   parts_.reset();
   handOn(last_value_);
@@ -239,13 +239,16 @@ CommandRecorder& WalkMaking::nextRecorder() {
   return trace_->recorders[turn_];
 }
 
-int64_t WalkMaking::submit(CommandRecorder& recorder, RayKind kind, uint64_t ray_count) {
-  const int64_t predicted_ns = std::max<int64_t>(1, costs_->on_device[kind].predictNs(ray_count));
+// The cost that the part was cut by is the one that it is predicted with, whatever was learnt while
+// it was recorded. A kernel that the device compiles on the way says nothing about rays.
+int64_t WalkMaking::submit(CommandRecorder& recorder, const Rays& rays, uint64_t ray_count) {
+  const int64_t predicted_ns = std::max<int64_t>(1, rays.cost.predictNs(ray_count));
+  const bool is_learnt = rays.kernel_count == device_.kernelCount();
   last_value_ = recorder.submit(tools_.timeline);
   trace_->submitted[turn_] = last_value_;
-  tools_.meter.note(last_value_, [costs = costs_, kind, ray_count, predicted_ns,
-                                  note_work = order_.note_work](int64_t measured_ns) {
-    costs->note(kind, ray_count, measured_ns);
+  tools_.meter.note(last_value_, [costs = costs_, kind = rays.kind, ray_count, predicted_ns,
+                                  is_learnt, note_work = order_.note_work](int64_t measured_ns) {
+    if (is_learnt) costs->note(kind, ray_count, measured_ns);
     if (note_work) note_work({.predicted_ns = predicted_ns, .measured_ns = measured_ns});
   });
   return predicted_ns;

@@ -86,14 +86,22 @@ class WalkMaking final : public Making {
   MakingStep stepMeans();
   MakingStep stepPart();
   CommandRecorder& nextRecorder();
+  // Rays on their way, and what was known before they were recorded.
+  struct Rays {
+    RayKind kind;
+    CostEstimate cost;
+    uint64_t kernel_count;  // of the device
+  };
+  Rays raysOf(RayKind kind) const { return {kind, costs_->on_device[kind], device_.kernelCount()}; }
   // Returns the prediction.
-  int64_t submit(CommandRecorder& recorder, RayKind kind, uint64_t ray_count);
+  int64_t submit(CommandRecorder& recorder, const Rays& rays, uint64_t ray_count);
   RayKind kindOf(PartKind kind) const;
   void handOn(uint64_t timeline_value);
 
   const WalkTools tools_;
   const AtlasOrder order_;
   const PicturePtr picture_;  // as it is traced
+  const Device& device_;
   const std::shared_ptr<WalkCosts> costs_;
   const HandOn hand_on_;
   const std::vector<const StructureSlot*> structures_;

@@ -93,12 +93,15 @@ int64_t WalkedFrame::build(const Clock& clock, const PreparationEvents& events) 
 // One submission at a time, so that others get their turn on the device in between.
 void WalkedFrame::buildInPieces(const PreparationEvents& events) {
   CommandRecorder& recorder = form_->recorder;
+  uint64_t kernel_count = works_.device.kernelCount();
   const auto submit = [&](const BuiltPx& recorded) {
     const int64_t predicted_ns = works_.build_costs.predictNs(recorded);
     const int64_t submitted_ns = wallTimeNs();
     works_.timeline.wait(recorder.submit(works_.timeline));
     const int64_t measured_ns = works_.clock.noteDone(submitted_ns);
-    works_.build_costs.note(recorded, measured_ns);
+    // A kernel that the device compiles on the way says nothing about px.
+    const uint64_t kernels_before = std::exchange(kernel_count, works_.device.kernelCount());
+    if (kernels_before == kernel_count) works_.build_costs.note(recorded, measured_ns);
     events.on_piece({.predicted_ns = predicted_ns, .measured_ns = measured_ns});
   };
   CutRecording cuts(recorder.begin(), works_.build_costs, kPiece_ns, [&](const BuiltPx& recorded) {

@@ -17,7 +17,7 @@ inline uint32_t groupsOf(uint32_t count, uint32_t group_size) {
   return (count + group_size - 1) / group_size;
 }
 
-// What passes over a slot bind.
+// Bindings of passes over a slot.
 std::vector<Descriptor> describeBindings(const StructureSlot& slot);
 
 // One build, stage after stage. What it is made with outlives it. Thread-safety: none.

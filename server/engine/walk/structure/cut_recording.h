@@ -35,7 +35,7 @@ class CutRecording {
   bool isLong(BuildPass pass, uint64_t px_count) const;
   // Cuts here, unless it is never cut: the CPU may read what was written so far.
   void cut();
-  // What was recorded since it was cut last.
+  // Px that were recorded since it was cut last.
   const BuiltPx& recorded() const { return recorded_; }
 
  private:

@@ -194,7 +194,7 @@ void PathMirrorPass::record(Commands commands, std::span<const StructureSlot* co
     push.band_row = row;
     std::vector<Piece> pieces =
         describe(structures, piece_rows, {.sample = part.first_sample}, row);
-    // What is known of the rays stays in memory from one part to the next.
+    // The rays stay in memory as they are from one part to the next.
     for (uint32_t step = part.first_step; step < part.end_step; ++step) {
       push.sample_index = step / push.bounce_count;
       push.bounce = step % push.bounce_count;

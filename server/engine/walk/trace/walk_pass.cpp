@@ -151,8 +151,8 @@ uint64_t WalkPass::recordMeans(Commands commands, const Walk& walk, uint64_t tex
   return mean_color_.recordRows(commands, walk.structure, reachOf(walk), texel_count_max);
 }
 
-// As many groups as the list has. A share of it is taken as if all blocks were listed, as nobody
-// but the device knows how many are: groups behind its end have nothing to do.
+// Dispatches as many groups as the list has. A share of it is taken as if all blocks were listed,
+// as nobody but the device knows how many are: groups behind its end have nothing to do.
 void WalkPass::recordListed(Commands commands, const ComputePass& pass, const abi::TracePush& push,
                             const Walk& walk, BandRows rows, const Px& px, const TraceSlot& slot) {
   const uint64_t width_px = walk.job.layout->size_px.width;
