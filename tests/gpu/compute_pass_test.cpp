@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "gpu/buffer.h"
@@ -81,6 +82,33 @@ TEST_F(ComputePassTest, writesTheColumnsThatItIsGiven) {
   for (uint32_t i = 0; i < kCount; ++i) {
     const bool is_given = i >= 2 * kGroupSize && i < 5 * kGroupSize;
     ASSERT_EQ(floats(target)[i], is_given ? 3.0f * float(i) + 7.0f : -1.0f) << i;
+  }
+}
+
+// Groups that a buffer counts begin with the first, wherever those before them began.
+TEST_F(ComputePassTest, beginsWithTheFirstGroupAfterColumns) {
+  constexpr uint32_t kCount = 10 * kGroupSize;
+  const Buffer source(device(), {.size_bytes = 4 * kCount, .intent = MemoryIntent::kUpload});
+  const Buffer columns(device(), {.size_bytes = 4 * kCount, .intent = MemoryIntent::kReadback});
+  const Buffer target(device(), {.size_bytes = 4 * kCount, .intent = MemoryIntent::kReadback});
+  const Buffer groups(device(), {.size_bytes = 3 * sizeof(uint32_t)});
+  const ComputePass pass = makeScalePass({{abi::kIdFree, 3}, {abi::kIdFree + 1, 7}});
+  std::iota(floats(source).begin(), floats(source).end(), 0.0f);
+  std::ranges::fill(floats(target), -1.0f);
+
+  Timeline timeline(device());
+  CommandRecorder recorder(device());
+  const Commands commands = recorder.begin();
+  constexpr std::array<uint32_t, 3> kGroups = {3, 1, 1};
+  commands.write(groups, std::as_bytes(std::span(kGroups)));
+  recordTransferToCompute(commands);
+  pass.recordColumns(commands, ScalePush{source.address(), columns.address(), kCount}, {2, 5}, 1);
+  pass.recordIndirect(commands, ScalePush{source.address(), target.address(), kCount}, groups, 0);
+  recordComputeToHost(commands);
+  ASSERT_TRUE(timeline.wait(recorder.submit(timeline)));
+
+  for (uint32_t i = 0; i < kCount; ++i) {
+    ASSERT_EQ(floats(target)[i], i < 3 * kGroupSize ? 3.0f * float(i) + 7.0f : -1.0f) << i;
   }
 }
 

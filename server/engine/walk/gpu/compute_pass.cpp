@@ -192,6 +192,12 @@ void ComputePass::recordRows(Commands commands, std::span<const std::byte> push,
 void ComputePass::recordIndirect(Commands commands, std::span<const std::byte> push,
                                  const Buffer& groups, uint64_t offset_bytes) const {
   recordState(commands, push);
+  if (device_->info().is_software) {
+    // lavapipe (Mesa 22.3) would begin with the group that the dispatch before it began with. This
+    // one without groups uses no memory, but the validation layers count it as a use.
+    vk::CommandBuffer(commands.handle()).dispatch(0, 1, 1);
+    recordComputeBarrier(commands);
+  }
   vk::CommandBuffer(commands.handle()).dispatchIndirect(groups.handle(), offset_bytes);
 }
 
