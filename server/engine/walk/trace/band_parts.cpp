@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "shared/lens_abi.h"
 #include "shared/trace_abi.h"
 #include "trace/met_blocks.h"
 
@@ -109,7 +110,9 @@ BandPart BandParts::takeSamples(uint64_t ray_count_max) const {
 }
 
 BandPart BandParts::takeRows(uint64_t ray_count_max) const {
-  const uint64_t count = std::max<uint64_t>(ray_count_max / rowRays(), 1);
+  // Lists of a lens are of blocks.
+  const uint64_t step = kind_ == PartKind::kSettle && gathers_ ? abi::kMetBlockSide_px : 1;
+  const uint64_t count = std::max<uint64_t>(ray_count_max / rowRays() / step, 1) * step;
   BandPart part = wholeRow();
   part.end_row = uint32_t(std::min<uint64_t>(row_ + count, row_count_));
   return part;

@@ -10,8 +10,9 @@
 namespace viewloom {
 
 // A part has no more rays than this, unless those of the least that there can be are more: of a
-// walk kWalkColumns_px px in one structure, of what is settled a row, else as many columns of a row
-// as a group has invocations. In several structures those mirror bounce by bounce.
+// walk kWalkColumns_px px in one structure, of what is settled a row, or one of blocks of a lens,
+// else as many columns of a row as a group has invocations. In several structures those mirror
+// bounce by bounce.
 inline constexpr uint64_t kPartRays = uint64_t{1} << 21;
 // Rays of the second stage of a lens that are counted as one that is walked: fewer than it takes.
 inline constexpr uint64_t kGatheredPerWalked = 4;
