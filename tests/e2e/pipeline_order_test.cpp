@@ -6,6 +6,8 @@
 #include <stdexcept>
 
 #include "e2e/pipeline_fixture.h"
+#include "e2e/slow_lens_engine.h"
+#include "walk/walk_engine.h"
 
 namespace viewloom::test::pipeline_order_test {
 namespace {
@@ -89,30 +91,35 @@ TEST_F(PipelineOrderTest, letsASmallAtlasOvertakeALargeOneBetweenTwoStrips) {
   EXPECT_THAT(order, ElementsAre("small", "large"));
 }
 
-// Half of it are as many rays as an atlas has before others; by its deadline it would go first to
-// its end.
+// By its deadline the lens would go first to its end. It has used more of the device by then than
+// what comes late, whatever device it is.
 TEST_F(PipelineOrderTest, letsAnAtlasByThatComesLateWhileALensTakesManyRays) {
-  Server server(device(), {.encode_thread_count = 1, .trace_slot_count = 2});
+  LensHold hold;
+  ServerOptions options{.encode_thread_count = 1};
+  options.make_engines = [&hold](const Device& device) {
+    Engines engines{.all = {}, .workers = std::make_unique<WorkerPool>()};
+    engines.all.push_back(std::make_unique<SlowLensEngine>(
+        std::make_unique<WalkEngine>(device, WalkOptions{.strip_count_max = 2}), hold));
+    return engines;
+  };
+  Server server(device(), options);
   std::vector<std::string> order;
   std::mutex order_mutex;
-  const auto gate = std::make_shared<Gate>();
   const auto blurred = std::make_shared<OrderNoter>("blurred", order, order_mutex);
   const auto sharp = std::make_shared<OrderNoter>("sharp", order, order_mutex);
 
-  const auto gate_place = join(server, smallQuilt({64, 48}), gate);
-  DisplaySpec lens = smallQuilt({1024, 512});
+  DisplaySpec lens = smallQuilt({128, 64});
   lens.lens = LensSpec{.aperture_radius_m = 0.01,
                        .focus_distance_m = 2,
                        .walked_count = kWalkedSamplesMax,
                        .gathered_count = 0};
   const auto blurred_place = join(server, lens, blurred);
   server.offer(syntheticFrame(1));
-  gate->waitUntilReached();
-  while (!server.broadcaster.layout(blurred_place->displayId())) std::this_thread::yield();
+  hold.waitUntilReached();
   constexpr int64_t kHour_ns = 3600'000'000'000;
   server.clock.advance(kHour_ns);  // whoever comes now is due later
   const auto sharp_place = join(server, turnedCamera(), sharp);
-  gate->release();
+  hold.release();
   sharp->arrived().wait();
   blurred->arrived().wait();
   EXPECT_THAT(order, ElementsAre("sharp", "blurred"));
