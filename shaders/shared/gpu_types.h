@@ -30,6 +30,8 @@ using std::pow;
 #define VIEWLOOM_ABI_CONST inline constexpr
 #define VIEWLOOM_ABI_FUNCTION inline constexpr
 #define VIEWLOOM_ABI_INLINE inline
+// A value whose operations are rounded one by one.
+#define VIEWLOOM_ABI_PRECISE
 
 constexpr uint floatBitsToUint(float value) {
   return std::bit_cast<uint>(value);
@@ -46,6 +48,7 @@ constexpr float uintBitsToFloat(uint bits) {
 #define VIEWLOOM_ABI_CONST const
 #define VIEWLOOM_ABI_FUNCTION
 #define VIEWLOOM_ABI_INLINE
+#define VIEWLOOM_ABI_PRECISE precise
 #endif
 
 #endif  // VIEWLOOM_SHADERS_SHARED_GPU_TYPES_H_

@@ -4,6 +4,7 @@
 #ifndef VIEWLOOM_SHADERS_SHARED_HISTOGRAM_H_
 #define VIEWLOOM_SHADERS_SHARED_HISTOGRAM_H_
 
+#include "shared/quotient.h"
 #include "shared/structure_abi.h"
 
 VIEWLOOM_ABI_BEGIN
@@ -83,7 +84,8 @@ VIEWLOOM_ABI_FUNCTION RangeBounds rangeBounds(uint far_bin, uint near_bin, uint 
   RangeBounds range;
   range.begin = binStart(far_bin, kDepthMantissaBits);
   const float width = binStart(near_bin + 1u, kDepthMantissaBits) - range.begin;
-  range.bins_per_inv_z = surface_count == 0u ? 0.0f : float(kRangeHistogramBinCount) / width;
+  range.bins_per_inv_z =
+      surface_count == 0u ? 0.0f : exactQuotient(float(kRangeHistogramBinCount), width);
   range.below_count = below_count;
   range.surface_count = surface_count;
   return range;
@@ -96,7 +98,9 @@ VIEWLOOM_ABI_FUNCTION uint noiseBin(float difference) {
 
 // inv_z that steps between surfaces are shares from: behind all but the furthest.
 VIEWLOOM_ABI_FUNCTION float baseOfSteps(float inv_z_near, float inv_z_far) {
-  return inv_z_far - kBaseMargin * (inv_z_near - inv_z_far);
+  VIEWLOOM_ABI_PRECISE const float margin = kBaseMargin * (inv_z_near - inv_z_far);
+  VIEWLOOM_ABI_PRECISE const float base = inv_z_far - margin;
+  return base;
 }
 
 // The least step of a rule that is a share of the distance from there: what is further is as far.
