@@ -83,7 +83,7 @@ struct Kept {
 
 // Adds what is more than one sample's worth behind the last surface.
 void keep(inout Kept kept, vec4 inv_z) {
-  const vec4 format_step =
+  precise const vec4 format_step =
       push.format_step.x + inv_z * (push.format_step.y + inv_z * push.format_step.z);
   const bvec4 stays =
       both(greaterThanEqual(inv_z, vec4(0.0)), greaterThan(kept.last - inv_z, format_step));

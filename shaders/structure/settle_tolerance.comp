@@ -14,17 +14,18 @@ layout(push_constant, scalar) uniform Push { BuildPush push; };
 // Within its bin as if samples were spread evenly.
 float depthQuantile(MeasuredRef measured, float share) {
   const RangeBounds range = measured.value.head.range;
-  const float wanted = share * float(range.surface_count);
+  precise const float wanted = share * float(range.surface_count);
   if (wanted <= float(measured.value.depth_histogram[0])) return 0.0;
   float below = float(range.below_count);
   for (uint bin = 0u; bin < kRangeHistogramBinCount; ++bin) {
     const float here = float(measured.value.range_histogram[bin]);
     if (here > 0.0 && below + here >= wanted) {
-      return range.begin + (float(bin) + max(wanted - below, 0.0) / here) / range.bins_per_inv_z;
+      const float place = float(bin) + exactQuotient(max(wanted - below, 0.0), here);
+      return range.begin + exactQuotient(place, range.bins_per_inv_z);
     }
     below += here;
   }
-  return range.begin + float(kRangeHistogramBinCount) / range.bins_per_inv_z;
+  return range.begin + exactQuotient(float(kRangeHistogramBinCount), range.bins_per_inv_z);
 }
 
 // The end of the bin that holds the quantile, counted from bin `first`; without so many zeros.
@@ -55,7 +56,8 @@ float settleSmoothing(MeasuredRef measured, float depth_step, float inv_z_range)
   // The sky is neither rounded nor noisy.
   const float sky_count =
       min(float(measured.value.depth_histogram[0]), float(measured.value.noise_histogram[0]));
-  const float noise_sigma = noiseQuantile(measured, 0u, sky_count, 0.5) / kMedianPerSigma;
+  const float noise_sigma =
+      exactQuotient(noiseQuantile(measured, 0u, sky_count, 0.5), kMedianPerSigma);
   const float reach =
       smoothingReach(depth_step, step_median, noise_sigma, inv_z_range, push.width_px);
   const uint first_pass = firstSmoothingPass(depth_step, noise_sigma);
@@ -79,8 +81,9 @@ void main() {
                                        bentCount(measured),
                                        float(measured.value.changing_count),
                                        inv_z_range);
-  const float noise_sigma = max(noiseQuantile(measured, 0u, 0.0, 0.5) / kMedianPerSigma,
-                                settleSmoothing(measured, depth_step, inv_z_range));
+  const float noise_sigma =
+      max(exactQuotient(noiseQuantile(measured, 0u, 0.0, 0.5), kMedianPerSigma),
+          settleSmoothing(measured, depth_step, inv_z_range));
   const float given = push.given_kappa;
   measured.value.head.depth_step = depth_step;
   measured.value.head.noise_sigma = noise_sigma;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The columns of a source as the sweep prepares them, beside those of the device.
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <iostream>
@@ -10,6 +9,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "gpu/column_tolerance.h"
 #include "gpu/walk_under_test.h"
 #include "oracle/scene_generator.h"
 #include "support/test_device.h"
@@ -22,19 +22,6 @@ namespace {
 // Both sides odd: rows end within a vector, planes of 2-byte samples within a word.
 constexpr SizePx kSize_px{61, 23};
 constexpr Intrinsics kIntrinsics{{60, 63}, {28, 12}};
-
-// Tolerance of inv_z. Lengths of rays add to it: the sweep multiplies by a rounded 1 / focal.
-constexpr int kUlps = 1;
-constexpr int kRayUlps = 3;
-constexpr int kQuotientUlps = 3;  // Vulkan allows a GPU's quotients 2.5
-// Share of measured depths and steps: bins end alike, quantiles lie between by a few roundings.
-constexpr double kStatsShare = 4.0 / (1 << 23);
-
-int ulpsApart(float a, float b) {
-  // A zero with a sign would be taken for a facet with a link.
-  if (std::signbit(a) != std::signbit(b)) return std::numeric_limits<int>::max();
-  return std::abs(std::bit_cast<int32_t>(a) - std::bit_cast<int32_t>(b));
-}
 
 template <typename Sample>
 SharedBytes packed(const std::vector<Sample>& samples) {
@@ -131,11 +118,12 @@ FramePtr frameOfLayers(oracle::Random& random, const std::vector<LayerKind>& lay
   return frame;
 }
 
-void expectSameStats(const SourceStats& swept, const SourceStats& device) {
+// `share_max`: 0 where the samples are the same, to the bit.
+void expectSameStats(const SourceStats& swept, const SourceStats& device, double share_max) {
   EXPECT_EQ(swept.bad_samples_count, device.bad_samples_count);
   EXPECT_EQ(swept.unsorted_columns_count, device.unsorted_columns_count);
-  const auto expectClose = [](double a, double b, const char* name) {
-    EXPECT_NEAR(a, b, std::abs(b) * kStatsShare) << name;
+  const auto expectClose = [&](double a, double b, const char* name) {
+    EXPECT_NEAR(a, b, std::abs(b) * share_max) << name;
   };
   expectClose(swept.depth_step, device.depth_step, "depth_step");
   expectClose(swept.noise_sigma, device.noise_sigma, "noise_sigma");
@@ -151,28 +139,23 @@ uint64_t pxCount(const DepthSpread& spread) {
   return count;
 }
 
-// A sample that is rounded differently may lie on the other side of a bin's edge.
-void expectSameSpread(const DepthSpread& swept, const DepthSpread& device) {
+// A sample that is rounded differently may lie on the other side of a bin's edge: that many do.
+void expectSameSpread(const DepthSpread& swept, const DepthSpread& device, double moved_share_max) {
   EXPECT_EQ(pxCount(swept), pxCount(device));
   std::map<double, int64_t> moved;
   for (const DepthBin& bin : swept) moved[bin.inv_z_low] += bin.count;
   for (const DepthBin& bin : device) moved[bin.inv_z_low] -= bin.count;
   int64_t moved_count = 0;
   for (const auto& [inv_z_low, count] : moved) moved_count += std::abs(count);
-  EXPECT_LE(double(moved_count), 0.01 * double(pxCount(device)));
+  EXPECT_LE(double(moved_count), moved_share_max * double(pxCount(device)));
 }
 
 // The sweep's are of samples, the device's of planes over their footprints.
-void expectRangeInside(const SourceStats& swept, const SourceStats& device) {
-  EXPECT_GE(swept.inv_z_min, device.inv_z_min * (1 - kStatsShare));
-  EXPECT_LE(swept.inv_z_max, device.inv_z_max * (1 + kStatsShare));
-}
-
-bool hasRays(const Frame& frame) {
-  const std::vector<LayerFormat>& layers = frame.format.sources[0].layers;
-  return std::any_of(layers.begin(), layers.end(), [](const LayerFormat& layer) {
-    return layer.depth.depth.meaning == DepthMeaning::kRayDistance;
-  });
+void expectRangeInside(const SourceStats& swept, const SourceStats& device,
+                       const ColumnTolerance& tolerance) {
+  const auto slack = [&](double inv_z) { return inv_z * kStatsShare + tolerance.at(inv_z); };
+  EXPECT_GE(swept.inv_z_min, device.inv_z_min - slack(device.inv_z_min));
+  EXPECT_LE(swept.inv_z_max, device.inv_z_max + slack(device.inv_z_max));
 }
 
 class ColumnsTest : public GpuTest {
@@ -181,7 +164,8 @@ class ColumnsTest : public GpuTest {
     const std::unique_ptr<StructureSlot> slot = walk_.build(*frame);
     const StructureImage image = walk_.readBack(*slot);
     source_.prepare(frame, workers_);
-    ulps_max_ = quotient_ulps_ + (hasRays(*frame) ? kRayUlps : kUlps);
+    tolerance_ = toleranceOf(*frame, source_.measured().smoothing, device().info().is_software);
+    const bool is_exact = tolerance_.share == 0;
     const DepthColumns& columns = *source_.rowSource().columns;
     swept_min_ = std::numeric_limits<float>::max();
     swept_max_ = abi::kNoSurface;
@@ -191,9 +175,9 @@ class ColumnsTest : public GpuTest {
     }
     EXPECT_EQ(source_.measured().stats.inv_z_max, std::max(swept_max_, 0.0F));
     EXPECT_EQ(source_.measured().stats.inv_z_min, swept_max_ < 0 ? 0.0F : swept_min_);
-    expectRangeInside(source_.measured().stats, slot->stats());
-    expectSameStats(source_.measured().stats, slot->stats());
-    expectSameSpread(source_.measured().depths, slot->depthSpread());
+    expectRangeInside(source_.measured().stats, slot->stats(), tolerance_);
+    expectSameStats(source_.measured().stats, slot->stats(), is_exact ? 0 : kStatsShare);
+    expectSameSpread(source_.measured().depths, slot->depthSpread(), is_exact ? 0 : 0.01);
     bad_count_ += slot->stats().bad_samples_count;
     unsorted_count_ += slot->stats().unsorted_columns_count;
   }
@@ -202,10 +186,11 @@ class ColumnsTest : public GpuTest {
     const float* const row = columns.row(layer, y);
     const float* const expected = &image.layers[layer].inv_z[size_t(y) * size_t(image.width)];
     for (int x = 0; x < image.width; ++x) {
-      const int ulps = ulpsApart(row[x], expected[x]);
-      ASSERT_LE(ulps, ulps_max_) << "layer " << layer << " px (" << x << ", " << y
-                                 << "): " << row[x] << ", on the device " << expected[x];
-      rounded_count_ += ulps > 0;
+      ASSERT_TRUE(tolerance_.holds(row[x], expected[x]))
+          << "layer " << layer << " px (" << x << ", " << y << "): " << row[x] << ", on the device "
+          << expected[x] << ", apart "
+          << (double{row[x]} - double{expected[x]}) / (kUlp * double{row[x]}) << " ulp";
+      rounded_count_ += row[x] != expected[x];
       if (row[x] >= 0) swept_min_ = std::min(swept_min_, row[x]);
       swept_max_ = std::max(swept_max_, row[x]);
       ++sample_count_;
@@ -222,10 +207,9 @@ class ColumnsTest : public GpuTest {
 
   WalkUnderTest& walk_ = shared<WalkUnderTest>();
   WorkerPool workers_{2};
-  SweepSource source_;  // its memory serves frames of every size and kind
-  const int quotient_ulps_ = device().info().is_software ? 0 : kQuotientUlps;
-  int ulps_max_ = kUlps;
-  float swept_min_ = 0;  // of the rows of a frame, 1/m
+  SweepSource source_;         // its memory serves frames of every size and kind
+  ColumnTolerance tolerance_;  // of the frame at hand
+  float swept_min_ = 0;        // of the rows of a frame, 1/m
   float swept_max_ = 0;
   uint64_t sample_count_ = 0;
   uint64_t rounded_count_ = 0;
@@ -244,7 +228,6 @@ TEST_F(ColumnsTest, areTheDevicesOnScenesOfTheOracle) {
   printCounts();
 }
 
-// Kinds of CPU and device that round the reach otherwise move what is at its end.
 TEST_F(ColumnsTest, areTheDevicesWhereDepthIsCoarse) {
   for (uint64_t seed = 0; seed < 8; ++seed) {
     const oracle::Scene scene = oracle::coarseScene(seed, 201, 101, 1 + int(seed / 2));

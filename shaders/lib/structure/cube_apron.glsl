@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the px of the apron of a face lie on the neighbouring faces (shaders/structure.md, Cube
-// maps). In integers: all who ask name the same sample.
+// maps). In integers, and with exact quotients: all who ask name the same sample and place.
 #ifndef VIEWLOOM_LIB_STRUCTURE_CUBE_APRON_GLSL_
 #define VIEWLOOM_LIB_STRUCTURE_CUBE_APRON_GLSL_
 
 #include "shared/cube_abi.h"
+#include "shared/quotient.h"
 
 layout(buffer_reference, scalar, buffer_reference_align = 4) readonly buffer CubeRef {
   CubeFaceList list;
@@ -56,12 +57,13 @@ FacePlace placeOf(CubeRef cube, uint face, ivec2 pixel) {
   const ivec2 scaled = side * (beside + depth);  // of 2 depth a px
   place.sample_px = min(scaled / (2 * depth), ivec2(side - 1));
   const ivec2 rest = scaled - place.sample_px * (2 * depth);
-  precise const vec2 share = vec2(rest) / float(2 * depth);
+  const float all_px = float(2 * depth);
+  const vec2 share = vec2(exactQuotient(float(rest.x), all_px),
+                          exactQuotient(float(rest.y), all_px));
   place.offset_px = share - 0.5;
   const vec3 leading = abs(vec3(other_right) * forward);
   place.is_along_x = leading.x + leading.y + leading.z < 0.5;
-  precise const float nearness = float(depth) / float(side);
-  place.nearness = nearness;
+  place.nearness = exactQuotient(float(depth), float(side));
   return place;
 }
 
