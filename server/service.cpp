@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "access/access_control.h"
+#include "admission/request_boundary.h"
 #include "base/byte_pool.h"
 #include "base/log.h"
 #include "decode/frame_intake.h"
@@ -212,7 +213,11 @@ void Service::Parts::drain() {
   engine_room->drain();
   broadcaster.drain();
   const std::jthread viewers_leave([this] {
-    if (http) http->drain();
+    try {
+      if (http) http->drain();
+    } catch (const std::exception& thrown) {
+      noteThrown("the farewell to viewers", thrown);  // they are cut
+    }
   });
   if (rpc) rpc->shutdown();
 }

@@ -7,8 +7,8 @@
 #include <mutex>
 #include <utility>
 
+#include "admission/request_boundary.h"
 #include "base/heap.h"
-#include "base/log.h"
 #include "base/thread_name.h"
 
 namespace viewloom {
@@ -46,8 +46,8 @@ MemoryReturn::MemoryReturn(MemoryBudget& budget, std::function<void()> on_tick)
           try {
             on_tick();
             returnUnused(budget, heap);
-          } catch (const std::bad_alloc&) {
-            log(LogLevel::kWarning, "no memory is left to look for memory; trying again");
+          } catch (const std::exception& thrown) {
+            noteThrown("a look at the memory", thrown);  // the next one is soon
           }
         }
       }) {}

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "admission/request_boundary.h"
 #include "base/thread_name.h"
 
 namespace viewloom {
@@ -23,7 +24,12 @@ class Grace {
           nameThread("grace");
           std::unique_lock lock(mutex_);
           over_.wait_for(lock, stop, time, [] { return false; });
-          if (!stop.stop_requested()) then();
+          if (stop.stop_requested()) return;
+          try {
+            then();
+          } catch (const std::exception& thrown) {
+            noteThrown("the end of a grace", thrown);
+          }
         }) {}
 
  private:

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "pipeline/retime_loop.h"
 
+#include <exception>
 #include <utility>
 
+#include "admission/request_boundary.h"
 #include "base/thread_name.h"
 
 namespace viewloom {
@@ -48,9 +50,13 @@ bool RetimeLoop::isBusy(const AtlasJob& job) {
 
 void RetimeLoop::run() {
   while (std::optional<RetimeSchedule::Tick> tick = take()) {
-    const std::string stream = tick->job.structure->stream;
-    serve_(std::move(tick->job), tick->display->spec, stop_.get_token());
-    finish(stream);
+    const ResidentPtr structure = tick->job.structure;
+    try {
+      serve_(std::move(tick->job), tick->display->spec, stop_.get_token());
+    } catch (const std::exception& thrown) {
+      noteThrown("a retimed picture", thrown);  // the stream gets its next one
+    }
+    finish(structure->stream);
   }
 }
 

@@ -5,10 +5,10 @@
 
 #include <condition_variable>
 #include <ctime>
-#include <new>
 #include <stdexcept>
 #include <utility>
 
+#include "admission/request_boundary.h"
 #include "base/log.h"
 #include "base/thread_name.h"
 
@@ -78,8 +78,8 @@ TlsWatch::TlsWatch(TlsFiles files, OnLook on_look)
     while (!never.wait_for(lock, stop, kLookInterval, [&] { return stop.stop_requested(); })) {
       try {
         tell(store_.look());
-      } catch (const std::bad_alloc&) {
-        log(LogLevel::kWarning, "no memory is left to look at the certificate; trying again");
+      } catch (const std::exception& thrown) {
+        noteThrown("a look at the certificate", thrown);  // the next one is soon
       }
     }
   });

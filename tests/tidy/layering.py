@@ -38,7 +38,7 @@ LAYERS = {
     "server/access": (["base"], ["absl", "nlohmann", "openssl"]),
     # Takes rights from the process; the kernel's interface and libseccomp only.
     "server/containment": (["base"], ["absl", "nlohmann", "seccomp"]),
-    "server/tls": (["base", "certificates"], ["absl", "openssl"]),
+    "server/tls": (["admission", "base", "certificates"], ["absl", "openssl"]),
     "server/decode": (["base", "jpeg", "frame", "admission", SHADERS_SHARED],
                       ["absl", "glm", "jpeg", "zstd"]),
     "server/picture": (["base", "frame", "calibration", "display", SHADERS_SHARED],

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <stdexcept>
 #include <thread>
 
 namespace viewloom::memory_return_test {
@@ -41,6 +42,15 @@ TEST(MemoryReturn, ticksAndEndsAtOnce) {
     while (tick_count == 0) std::this_thread::yield();
   }
   EXPECT_GE(tick_count, 1);
+}
+
+TEST(MemoryReturn, goesOnAfterAnException) {
+  MemoryBudget budget(1000);
+  std::atomic<int> tick_count = 0;
+  const MemoryReturn memory_return(budget, [&] {
+    if (++tick_count == 1) throw std::runtime_error("planted");
+  });
+  while (tick_count < 2) std::this_thread::yield();
 }
 
 }  // namespace

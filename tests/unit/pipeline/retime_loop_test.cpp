@@ -9,6 +9,7 @@
 #include <memory>
 #include <mutex>
 #include <semaphore>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -77,6 +78,7 @@ class RetimeLoopTest : public testing::Test {
           is_held_.release();
           may_go_on_.acquire();
         }
+        if (job.picture_key == "broken") throw std::runtime_error("planted");
         std::lock_guard lock(mutex_);
         served_.push_back(job.picture_key + " " + std::to_string(job.tick->shown.carried_ns));
       }};
@@ -100,6 +102,15 @@ TEST_F(RetimeLoopTest, servesPicturesOfAStreamOneAfterTheOther) {
   may_go_on_.release();
   waitUntilServed(tickOf("second", structure, 2));
   EXPECT_THAT(served(), ElementsAre("held 1", "first 2", "second 2"));
+}
+
+TEST_F(RetimeLoopTest, goesOnWithAStreamAfterAnException) {
+  const ResidentPtr structure = someStructure("scene");
+  EXPECT_TRUE(offer(tickOf("broken", structure, 1)));
+  waitUntilServed(tickOf("broken", structure, 1));
+  EXPECT_TRUE(offer(tickOf("next", structure, 2)));
+  waitUntilServed(tickOf("next", structure, 2));
+  EXPECT_THAT(served(), ElementsAre("next 2"));
 }
 
 TEST_F(RetimeLoopTest, keepsTheNewestTickOfAPictureInItsPlaceAndCountsTheOther) {
