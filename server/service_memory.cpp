@@ -30,6 +30,7 @@ constexpr uint64_t kIdleStreamsPart = 32;
 constexpr SizePx kSmallFrame_px{1280, 720};
 constexpr SizePx kSmallAtlas_px{1024, 1024};
 constexpr uint64_t kFramesAtOnce = 2;
+constexpr uint64_t kClients = 2;  // a publisher and a viewer
 
 PlaneFormat rawPlane(PlaneKind kind, PlaneEncoding encoding) {
   PlaneFormat plane{.kind = kind, .encoding = encoding, .size_px = kSmallFrame_px};
@@ -55,7 +56,8 @@ uint64_t leastBytes(const PreparedBytes& prepared_bytes) {
   const FrameFormat frame = smallFrame();
   const DisplayPrice display = smallDisplay();
   return kFramesAtOnce * (framePrice(frame).receiving_bytes + prepared_bytes(frame)) +
-         display.displayBytes() + display.viewerBytes() + display.making_bytes + kConnectionBytes;
+         display.displayBytes() + display.viewerBytes() + display.making_bytes + kConnectionBytes +
+         kClients * (kConnectionBytes + kOpenCallBytes);
 }
 
 uint64_t kernelBytes(uint64_t budget_bytes, bool compiles_on_cpu) {

@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 
 #include <optional>
+#include <utility>
 
 namespace viewloom {
 namespace {
@@ -17,8 +18,10 @@ std::optional<ino_t> inodeOf(int fd) {
 
 }  // namespace
 
-void OpenSockets::add(int fd) {
-  if (const std::optional<ino_t> inode = inodeOf(fd)) sockets_.push_back({fd, *inode});
+void OpenSockets::add(int fd, Reservation memory) {
+  if (const std::optional<ino_t> inode = inodeOf(fd)) {
+    sockets_.push_back({fd, *inode, std::move(memory)});
+  }
 }
 
 size_t OpenSockets::count() {

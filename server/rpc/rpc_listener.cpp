@@ -12,19 +12,22 @@
 #include <stdexcept>
 #include <utility>
 
+#include "admission/display_price.h"
 #include "admission/request_boundary.h"
+#include "base/host_port.h"
 #include "base/send_queue.h"
 #include "base/str_cat.h"
 #include "base/thread_name.h"
 #include "rpc/listening_sockets.h"
+#include "rpc/peer_host.h"
 
 namespace viewloom {
 namespace {
 
 // Until the next attempt to accept, when the process has no free descriptor.
 constexpr std::chrono::milliseconds kAcceptPause{50};
-// Between two counts while the port is full. A flood then costs little for each connection, and
-// never fills the system's queue, in which others would wait.
+// Between two counts while the port or the share of a client is full. A flood then costs little for
+// each connection, and never fills the system's queue, in which others would wait.
 constexpr std::chrono::milliseconds kCountPause{20};
 
 // Fails harmlessly for UNIX sockets.
@@ -38,8 +41,9 @@ void setConnectionOptions(int fd, std::chrono::milliseconds acknowledge_time) {
 
 }  // namespace
 
-RpcListener::RpcListener(const RpcListenerOptions& options, const Metrics& metrics)
-    : options_(options), metrics_(metrics) {
+RpcListener::RpcListener(const RpcListenerOptions& options, const Metrics& metrics,
+                         MemoryBudget& memory)
+    : options_(options), metrics_(metrics), memory_(memory) {
   ListeningSockets sockets = openListeningSockets(options.address);
   if (sockets.fds.empty()) {
     throw std::runtime_error(
@@ -91,10 +95,26 @@ absl::Status RpcListener::status() const {
 
 bool RpcListener::isFull() const {
   if (connections_.countMax() < options_.connection_count_max) return false;
+  forgetClosed();
+  return connections_.countMax() >= options_.connection_count_max;
+}
+
+void RpcListener::forgetClosed() const {
   const auto now = std::chrono::steady_clock::now();
-  if (now - counted_ < kCountPause) return true;
+  if (now - counted_ < kCountPause) return;
   counted_ = now;
-  return connections_.count() >= options_.connection_count_max;
+  connections_.count();
+}
+
+std::optional<Reservation> RpcListener::reserve(int fd) {
+  const MemoryRequest request{.use = MemoryUse::kConnections,
+                              .identity = identityOfHost(peerHost(fd)),
+                              .bytes = kConnectionBytes};
+  if (memory_.leftFor(request.identity) < request.bytes) {
+    std::lock_guard lock(mutex_);
+    forgetClosed();
+  }
+  return memory_.tryReserve(request);
 }
 
 void RpcListener::run(const std::stop_token& stop) {
@@ -136,14 +156,16 @@ void RpcListener::takeOrClose(int listener_fd, int fd) {
 }
 
 void RpcListener::take(int listener_fd, int fd) {
+  // Before the lock: idle memory is given up for it.
+  std::optional<Reservation> memory = reserve(fd);
   std::unique_lock lock(mutex_);
-  if (isFull()) {
+  if (!memory || isFull()) {
     lock.unlock();
     metrics_.connections_refused[Transport::kGrpc].add();
     close(fd);
     return;
   }
-  connections_.add(fd);
+  connections_.add(fd, *std::move(memory));
   lock.unlock();
   setConnectionOptions(fd, options_.acknowledge_time);
   hand_over_(listener_fd, fd);

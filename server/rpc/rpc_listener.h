@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "admission/memory_budget.h"
 #include "base/status.h"
 #include "metrics/metrics.h"
 #include "rpc/open_sockets.h"
@@ -26,7 +28,8 @@ struct RpcListenerOptions {
 
 // The library's own listener (1.51) stops for good when accept() fails once, as it does without a
 // free file descriptor. This one goes on. It also keeps the number of connections below a limit, so
-// that descriptors stay free: a connection over the limit is closed at once.
+// that descriptors stay free, and reserves kConnectionBytes of memory for each, in the share of its
+// address. A connection beyond that is closed at once.
 //
 // Thread-safety: status() and connectionCount() may be called from any thread; the rest from one.
 class RpcListener {
@@ -35,7 +38,8 @@ class RpcListener {
   using HandOver = std::function<void(int listener_fd, int fd)>;
 
   // Listens, and accepts nothing yet. Throws std::runtime_error when the address cannot be had.
-  RpcListener(const RpcListenerOptions& options, const Metrics& metrics);
+  // Both others outlive it.
+  RpcListener(const RpcListenerOptions& options, const Metrics& metrics, MemoryBudget& memory);
   // Stops.
   ~RpcListener();
   RpcListener(const RpcListener&) = delete;
@@ -58,10 +62,14 @@ class RpcListener {
   // A connection for which nothing is left is closed, and others are accepted.
   void takeOrClose(int listener_fd, int fd);
   void take(int listener_fd, int fd);
-  bool isFull() const;  // under mutex_
+  std::optional<Reservation> reserve(int fd);
+  // Under mutex_, as the next. Connections that were closed count until they are looked for.
+  bool isFull() const;
+  void forgetClosed() const;
 
   const RpcListenerOptions options_;
   const Metrics& metrics_;
+  MemoryBudget& memory_;
   std::vector<int> listener_fds_;
   int wake_fd_ = -1;
   uint16_t port_ = 0;

@@ -78,7 +78,7 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
       listener_({.address = options.address,
                  .connection_count_max = options.connection_count_max,
                  .acknowledge_time = std::chrono::milliseconds(options.keepalive) / 2},
-                parts.metrics),
+                parts.metrics, parts.memory),
       credentials_(options.tls ? tlsServerCredentials(options.tls)
                                : grpc::InsecureServerCredentials()),
       ingest_({.intake = parts.intake,

@@ -20,7 +20,7 @@ TEST(OpenSockets, countsThoseThatAreOpen) {
   const std::array<int, 2> ends = makePair();
   OpenSockets sockets;
   EXPECT_EQ(sockets.count(), 0u);
-  for (const int fd : ends) sockets.add(fd);
+  for (const int fd : ends) sockets.add(fd, {});
   EXPECT_EQ(sockets.count(), 2u);
   close(ends[0]);
   EXPECT_EQ(sockets.countMax(), 2u);
@@ -33,7 +33,7 @@ TEST(OpenSockets, countsThoseThatAreOpen) {
 TEST(OpenSockets, isNotMistakenAboutADescriptorThatServesAgain) {
   const std::array<int, 2> ends = makePair();
   OpenSockets sockets;
-  sockets.add(ends[0]);
+  sockets.add(ends[0], {});
   close(ends[0]);
   close(ends[1]);
   const std::array<int, 2> others = makePair();
@@ -41,6 +41,20 @@ TEST(OpenSockets, isNotMistakenAboutADescriptorThatServesAgain) {
   EXPECT_EQ(sockets.count(), 0u);
   close(others[0]);
   close(others[1]);
+}
+
+TEST(OpenSockets, giveBackTheMemoryOfThoseThatWereClosed) {
+  const std::array<int, 2> ends = makePair();
+  MemoryBudget budget(1000);
+  OpenSockets sockets;
+  for (const int fd : ends) {
+    sockets.add(fd, *budget.tryReserve({.use = MemoryUse::kConnections, .bytes = 100}));
+  }
+  EXPECT_EQ(budget.reservedBytes(), 200u);
+  close(ends[0]);
+  sockets.count();
+  EXPECT_EQ(budget.reservedBytes(), 100u);
+  close(ends[1]);
 }
 
 }  // namespace

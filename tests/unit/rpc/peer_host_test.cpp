@@ -2,6 +2,10 @@
 #include "rpc/peer_host.h"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
 
 namespace viewloom::peer_host_test {
 namespace {
@@ -18,6 +22,13 @@ TEST(PeerHost, isOneForAllWaysToAMachine) {
                            "ipv6:%5B::ffff:127.0.0.1%5D:1", "unix:", "unix:/run/viewloom"}) {
     EXPECT_EQ(peerHost(peer), "this machine") << peer;
   }
+}
+
+TEST(PeerHost, isThisMachineForSocketsWithoutAnAddress) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends.data()), 0);
+  EXPECT_EQ(peerHost(ends[0]), "this machine");
+  for (const int fd : ends) close(fd);
 }
 
 }  // namespace

@@ -10,9 +10,12 @@
 
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "admission/display_price.h"
 #include "rpc/listening_sockets.h"
 
 namespace viewloom::rpc_listener_test {
@@ -33,9 +36,9 @@ bool soon(const Condition& condition) {
 // A listener that keeps the connections it accepts.
 class KeepingListener {
  public:
-  explicit KeepingListener(uint32_t connection_count_max)
+  explicit KeepingListener(uint32_t connection_count_max, MemoryBudget& memory = unboundedMemory())
       : listener_({.address = "127.0.0.1:0", .connection_count_max = connection_count_max},
-                  metrics_) {
+                  metrics_, memory) {
     listener_.start([this](int, int fd) {
       std::lock_guard lock(mutex_);
       fds_.push_back(fd);
@@ -112,6 +115,29 @@ TEST(RpcListener, closesConnectionsBeyondItsLimitAndTakesOthersLater) {
   EXPECT_EQ(keeping.listener().connectionCount(), 1u);
 }
 
+TEST(RpcListener, closesConnectionsBeyondTheirClientsShareOfMemory) {
+  constexpr size_t kFitting = 8;
+  MemoryBudget budget(kFitting * kConnectionBytes);
+  KeepingListener keeping(100, budget);
+  const uint16_t port = keeping.listener().port();
+  std::vector<std::unique_ptr<Client>> clients;
+  while (clients.size() < kFitting) {
+    clients.push_back(std::make_unique<Client>());
+    ASSERT_TRUE(clients.back()->connectTo(port));
+  }
+  EXPECT_TRUE(clients.back()->isClosed());
+  EXPECT_EQ(keeping.acceptedCount(), kFitting * 3 / 4);
+  EXPECT_EQ(budget.reservedBytes(MemoryUse::kConnections), kFitting * 3 / 4 * kConnectionBytes);
+  EXPECT_EQ(keeping.refusedCount(), kFitting / 4);
+
+  keeping.closeAll();
+  std::this_thread::sleep_for(50ms);  // closed connections are looked for again
+  const Client later;
+  ASSERT_TRUE(later.connectTo(port));
+  EXPECT_TRUE(soon([&] { return keeping.acceptedCount() == 1; }));
+  EXPECT_EQ(budget.reservedBytes(MemoryUse::kConnections), kConnectionBytes);
+}
+
 TEST(RpcListener, goesOnAfterThereWasNoDescriptor) {
   KeepingListener keeping(100);
   const Client client;
@@ -130,7 +156,8 @@ TEST(RpcListener, goesOnAfterThereWasNoDescriptor) {
 
 TEST(RpcListener, closesAConnectionThatNobodyCanTakeAndGoesOn) {
   const Metrics metrics;
-  RpcListener listener({.address = "127.0.0.1:0", .connection_count_max = 10}, metrics);
+  RpcListener listener({.address = "127.0.0.1:0", .connection_count_max = 10}, metrics,
+                       unboundedMemory());
   listener.start([](int, int) { throw std::runtime_error("planted"); });
   for (int i = 0; i < 2; ++i) {
     const Client client;
@@ -145,7 +172,7 @@ TEST(RpcListener, saysWhichAddressCannotBeHad) {
   const std::string taken = "127.0.0.1:" + std::to_string(keeping.listener().port());
   for (const std::string& address : {taken, std::string("192.0.2.1:0"), std::string("nowhere")}) {
     try {
-      const RpcListener second({.address = address}, metrics);
+      const RpcListener second({.address = address}, metrics, unboundedMemory());
       ADD_FAILURE() << address;
     } catch (const std::runtime_error& error) {
       EXPECT_NE(std::string(error.what()).find("cannot listen on " + address), std::string::npos);
