@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/catalog_service.h"
 
+#include <memory>
 #include <utility>
 
 #include "admission/request_boundary.h"
@@ -11,8 +12,8 @@
 #include "rpc/call_access.h"
 #include "rpc/display_request.h"
 #include "rpc/layout_to_proto.h"
+#include "rpc/refused_call.h"
 #include "rpc/report_to_proto.h"
-#include "rpc/status_to_grpc.h"
 
 namespace viewloom {
 namespace {
@@ -107,96 +108,97 @@ v1::AdviseSourceResponse adviceToProto(const SourceAdvice& advice) {
   return proto;
 }
 
-// Lets `fill` write the answer for a caller who may ask; it returns the status of the call.
-template <typename Response, typename Fill>
-grpc::ServerUnaryReactor* answer(AccessControl& access, grpc::CallbackServerContext* context,
-                                 std::string_view rpc, grpc::ByteBuffer* bytes, const Fill& fill) {
-  const absl::Status status = unlessThrown([&]() -> absl::Status {
-    const absl::StatusOr<Caller> caller = admitCall(access, *context, rpc);
-    VIEWLOOM_RETURN_IF_ERROR(caller.status());
-    Response response;
-    const absl::Status filled = fill(*caller, response);
-    if (filled.ok()) *bytes = bytesFromMessage(response);
-    return filled;
-  });
-  grpc::ServerUnaryReactor* reactor = context->DefaultReactor();
-  reactor->Finish(statusToGrpc(status));
-  return reactor;
-}
-
 }  // namespace
 
 CatalogService::CatalogService(const StreamDirectory& directory, const Broadcaster& broadcaster,
-                               AccessControl& access, const ServerDescription& description)
+                               AccessControl& access, MemoryBudget& memory,
+                               const ServerDescription& description)
     : directory_(directory),
       broadcaster_(broadcaster),
       access_(access),
       atlas_limits_(description.atlas_limits),
       info_(infoToProto(description)),
-      presets_(presetsToProto()) {}
-
-grpc::ServerUnaryReactor* CatalogService::ListStreams(Context* context, const Bytes*,
-                                                      Bytes* bytes) {
-  using Response = v1::ListStreamsResponse;
-  return answer<Response>(
-      access_, context, kListStreams, bytes, [&](const Caller& caller, Response& response) {
-        for (const StreamEntry& entry : directory_.list()) {
-          if (!caller.sees(entry.name)) continue;
-          *response.add_streams() = entryToProto(entry, broadcaster_.subscriberCount(entry.name));
-        }
-        return absl::OkStatus();
-      });
-}
-
-grpc::ServerUnaryReactor* CatalogService::ListDisplays(Context* context, const Bytes*,
-                                                       Bytes* bytes) {
-  using Response = v1::ListDisplaysResponse;
-  return answer<Response>(access_, context, kListDisplays, bytes,
-                          [&](const Caller& caller, Response& response) {
-                            for (const ActiveDisplayPtr& display : broadcaster_.displays("")) {
-                              if (!caller.sees(display->stream)) continue;
-                              v1::DisplayEntry& entry = *response.add_displays();
-                              entry.set_id(display->id);
-                              entry.set_stream(display->stream);
-                              if (const auto layout = broadcaster_.layout(display->id)) {
-                                *entry.mutable_layout() = layoutToProto(*layout, display->encoding);
-                              }
-                              entry.set_subscriber_count(display->subscriber_count);
-                              entry.set_atlas_count(broadcaster_.atlasCount(display->id));
-                            }
-                            return absl::OkStatus();
-                          });
-}
-
-grpc::ServerUnaryReactor* CatalogService::ListPresets(Context* context, const Bytes*,
-                                                      Bytes* bytes) {
-  using Response = v1::ListPresetsResponse;
-  return answer<Response>(access_, context, kListPresets, bytes,
-                          [&](const Caller&, Response& response) {
-                            response = presets_;
-                            return absl::OkStatus();
-                          });
-}
-
-grpc::ServerUnaryReactor* CatalogService::GetServerInfo(Context* context, const Bytes*,
-                                                        Bytes* bytes) {
-  using Response = v1::GetServerInfoResponse;
-  return answer<Response>(access_, context, kGetServerInfo, bytes,
-                          [&](const Caller&, Response& response) {
-                            response = info_;
-                            return absl::OkStatus();
-                          });
-}
-
-grpc::ServerUnaryReactor* CatalogService::AdviseSource(Context* context, const Bytes* request,
-                                                       Bytes* bytes) {
-  using Response = v1::AdviseSourceResponse;
-  return answer<Response>(
-      access_, context, kAdviseSource, bytes, [&](const Caller&, Response& response) {
-        const absl::StatusOr<SourceAdvice> advice = adviceOf(*request, atlas_limits_);
+      presets_(presetsToProto()),
+      calls_(memory) {
+  // In the order of the proto.
+  answer<v1::ListStreamsResponse>(0, kListStreams,
+                                  [this](const Caller& caller, grpc::ByteBuffer&, auto& response) {
+                                    listStreams(caller, response);
+                                    return absl::OkStatus();
+                                  });
+  answer<v1::ListDisplaysResponse>(1, kListDisplays,
+                                   [this](const Caller& caller, grpc::ByteBuffer&, auto& response) {
+                                     listDisplays(caller, response);
+                                     return absl::OkStatus();
+                                   });
+  answer<v1::ListPresetsResponse>(2, kListPresets,
+                                  [this](const Caller&, grpc::ByteBuffer&, auto& response) {
+                                    response = presets_;
+                                    return absl::OkStatus();
+                                  });
+  answer<v1::GetServerInfoResponse>(3, kGetServerInfo,
+                                    [this](const Caller&, grpc::ByteBuffer&, auto& response) {
+                                      response = info_;
+                                      return absl::OkStatus();
+                                    });
+  answer<v1::AdviseSourceResponse>(
+      4, kAdviseSource, [this](const Caller&, grpc::ByteBuffer& request, auto& response) {
+        const absl::StatusOr<SourceAdvice> advice = adviceOf(request, atlas_limits_);
         if (advice.ok()) response = adviceToProto(*advice);
         return advice.status();
       });
+}
+
+template <typename Response>
+void CatalogService::answer(int method_index, std::string_view rpc, Fill<Response> fill) {
+  openEarly(method_index, [this, rpc, fill](grpc::CallbackServerContext* context) -> Reactor* {
+    const absl::StatusOr<Caller> caller =
+        unlessThrown([&] { return admitCall(access_, *context, rpc); });
+    if (!caller.ok()) return new RefusedCall(caller.status());
+    const auto call = std::make_shared<QuestionCall>(
+        caller->shareName(clientHost(*context)),
+        [fill, asking = *caller](grpc::ByteBuffer& request) -> absl::StatusOr<grpc::ByteBuffer> {
+          Response response;
+          VIEWLOOM_RETURN_IF_ERROR(fill(asking, request, response));
+          return bytesFromMessage(response);
+        });
+    call->setContext(*context);
+    calls_.open(call);
+    return call.get();
+  });
+}
+
+void CatalogService::tick(uint32_t unread_ticks_max) {
+  calls_.forEach([unread_ticks_max](QuestionCall& call) {
+    call.tick();
+    call.cutIfUnread(unread_ticks_max);
+  });
+}
+
+void CatalogService::end() {
+  calls_.turnAway();
+  calls_.forEach([](QuestionCall& call) { call.end(absl::UnavailableError(kDrainMessage)); });
+}
+
+void CatalogService::listStreams(const Caller& caller, v1::ListStreamsResponse& response) const {
+  for (const StreamEntry& entry : directory_.list()) {
+    if (!caller.sees(entry.name)) continue;
+    *response.add_streams() = entryToProto(entry, broadcaster_.subscriberCount(entry.name));
+  }
+}
+
+void CatalogService::listDisplays(const Caller& caller, v1::ListDisplaysResponse& response) const {
+  for (const ActiveDisplayPtr& display : broadcaster_.displays("")) {
+    if (!caller.sees(display->stream)) continue;
+    v1::DisplayEntry& entry = *response.add_displays();
+    entry.set_id(display->id);
+    entry.set_stream(display->stream);
+    if (const auto layout = broadcaster_.layout(display->id)) {
+      *entry.mutable_layout() = layoutToProto(*layout, display->encoding);
+    }
+    entry.set_subscriber_count(display->subscriber_count);
+    entry.set_atlas_count(broadcaster_.atlasCount(display->id));
+  }
 }
 
 }  // namespace viewloom

@@ -2,24 +2,23 @@
 // CatalogService: streams, displays, presets and what this server is.
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
+#include <string_view>
 
 #include "access/access_control.h"
+#include "admission/memory_budget.h"
 #include "display/atlas_layout.h"
 #include "frame/limits.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
+#include "rpc/live_calls.h"
+#include "rpc/one_request_call.h"
 #include "tls/exposure.h"
 #include "viewloom/v1/catalog_service.grpc.pb.h"
 
 namespace viewloom {
-
-using RawCatalogService = v1::CatalogService::WithRawCallbackMethod_ListStreams<
-    v1::CatalogService::WithRawCallbackMethod_ListDisplays<
-        v1::CatalogService::WithRawCallbackMethod_ListPresets<
-            v1::CatalogService::WithRawCallbackMethod_GetServerInfo<
-                v1::CatalogService::WithRawCallbackMethod_AdviseSource<
-                    v1::CatalogService::Service>>>>>;
 
 // Answer of GetServerInfo; fixed while the server runs.
 struct ServerDescription {
@@ -37,26 +36,28 @@ struct ServerDescription {
 };
 
 // Reads no bytes of requests that have nothing to say. Thread-safety: all methods may be called
-// from any thread.
-class CatalogService final : public RawCatalogService {
+// from any thread, tick() from one.
+class CatalogService final : public EarlyService<v1::CatalogService::Service> {
  public:
+  // All but the description outlive it.
   CatalogService(const StreamDirectory& directory, const Broadcaster& broadcaster,
-                 AccessControl& access, const ServerDescription& description);
+                 AccessControl& access, MemoryBudget& memory, const ServerDescription& description);
+
+  // To be called every kTick; cuts calls like IngestService::tick.
+  void tick(uint32_t unread_ticks_max);
+  // Ends all calls, and those to come, with UNAVAILABLE.
+  void end();
 
  private:
-  using Context = grpc::CallbackServerContext;
-  using Bytes = grpc::ByteBuffer;
+  // Writes the answer for a caller who may ask; returns the status of the call.
+  template <typename Response>
+  using Fill = std::function<absl::Status(const Caller& caller, grpc::ByteBuffer& request,
+                                          Response& response)>;
+  template <typename Response>
+  void answer(int method_index, std::string_view rpc, Fill<Response> fill);
 
-  grpc::ServerUnaryReactor* ListStreams(Context* context, const Bytes* request,
-                                        Bytes* response) override;
-  grpc::ServerUnaryReactor* ListDisplays(Context* context, const Bytes* request,
-                                         Bytes* response) override;
-  grpc::ServerUnaryReactor* ListPresets(Context* context, const Bytes* request,
-                                        Bytes* response) override;
-  grpc::ServerUnaryReactor* GetServerInfo(Context* context, const Bytes* request,
-                                          Bytes* response) override;
-  grpc::ServerUnaryReactor* AdviseSource(Context* context, const Bytes* request,
-                                         Bytes* response) override;
+  void listStreams(const Caller& caller, v1::ListStreamsResponse& response) const;
+  void listDisplays(const Caller& caller, v1::ListDisplaysResponse& response) const;
 
   const StreamDirectory& directory_;
   const Broadcaster& broadcaster_;
@@ -64,6 +65,7 @@ class CatalogService final : public RawCatalogService {
   const AtlasLimits atlas_limits_;
   const v1::GetServerInfoResponse info_;
   const v1::ListPresetsResponse presets_;
+  LiveCalls<QuestionCall> calls_;
 };
 
 }  // namespace viewloom

@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "base/host_port.h"
+#include "base/str_cat.h"
 #include "messages/wire_message.h"
 #include "rpc/call_access.h"
-#include "rpc/status_to_grpc.h"
 
 namespace viewloom {
 namespace {
@@ -17,17 +17,55 @@ using grpc::health::v1::HealthCheckResponse;
 
 // The longest name of a service is a tenth of it.
 constexpr size_t kHealthRequestBytesMax = 512;
+// Methods in the order of their proto.
+constexpr int kCheck = 0;
+constexpr int kWatch = 1;
 
-absl::StatusOr<std::string> serviceOf(grpc::ByteBuffer request) {
-  HealthCheckRequest message;
-  VIEWLOOM_RETURN_IF_ERROR(parseMessage(request, message, kHealthRequestBytesMax));
-  return message.service();
+std::string identityOf(const grpc::CallbackServerContext& context) {
+  return strCat("health checks of ", identityOfHost(clientHost(context)));
 }
 
 }  // namespace
 
 HealthService::HealthService(MemoryBudget& memory, std::set<std::string> services)
-    : services_(std::move(services)), watches_(memory, kHealthWatchesMax) {}
+    : services_(std::move(services)),
+      checks_(memory, kHealthCallsMax),
+      watches_(memory, kHealthCallsMax) {
+  openEarly(kCheck, [this](grpc::CallbackServerContext* context) -> Reactor* {
+    const auto check = std::make_shared<QuestionCall>(
+        identityOf(*context),
+        [this](grpc::ByteBuffer& request) -> absl::StatusOr<grpc::ByteBuffer> {
+          const absl::StatusOr<Serving> serving = servingOf(request);
+          VIEWLOOM_RETURN_IF_ERROR(serving.status());
+          if (*serving == HealthCheckResponse::SERVICE_UNKNOWN)
+            return absl::NotFoundError("this server has no such service");
+          HealthCheckResponse response;
+          response.set_status(*serving);
+          return bytesFromMessage(response);
+        });
+    check->setContext(*context);
+    checks_.open(check);
+    return check.get();
+  });
+  openEarly(kWatch, [this](grpc::CallbackServerContext* context) -> Reactor* {
+    const auto watch = std::make_shared<HealthWatch>(
+        identityOf(*context), [this](grpc::ByteBuffer& request) { return servingOf(request); });
+    watch->setContext(*context);
+    watches_.open(watch);
+    // A drain that began meanwhile may have missed it.
+    if (is_draining_) watch->drain();
+    return watch.get();
+  });
+}
+
+void HealthService::tick(uint32_t unread_ticks_max) {
+  const auto tick_one = [unread_ticks_max](OneRequestCall& call) {
+    call.tick();
+    call.cutIfUnread(unread_ticks_max);
+  };
+  checks_.forEach(tick_one);
+  watches_.forEach(tick_one);
+}
 
 void HealthService::drain() {
   is_draining_ = true;
@@ -35,46 +73,21 @@ void HealthService::drain() {
 }
 
 void HealthService::end() {
+  const auto end_one = [](OneRequestCall& call) {
+    call.end(absl::UnavailableError(kDrainMessage));
+  };
+  checks_.turnAway();
+  checks_.forEach(end_one);
   watches_.turnAway();
-  watches_.forEach([](HealthWatch& watch) { watch.end(absl::UnavailableError(kDrainMessage)); });
+  watches_.forEach(end_one);
 }
 
-Serving HealthService::servingOf(const std::string& service) const {
+absl::StatusOr<Serving> HealthService::servingOf(grpc::ByteBuffer& request) const {
+  HealthCheckRequest message;
+  VIEWLOOM_RETURN_IF_ERROR(parseMessage(request, message, kHealthRequestBytesMax));
+  const std::string& service = message.service();
   if (!service.empty() && !services_.contains(service)) return HealthCheckResponse::SERVICE_UNKNOWN;
   return is_draining_ ? HealthCheckResponse::NOT_SERVING : HealthCheckResponse::SERVING;
-}
-
-grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext* context,
-                                               const grpc::ByteBuffer* request,
-                                               grpc::ByteBuffer* response) {
-  grpc::ServerUnaryReactor* const reactor = context->DefaultReactor();
-  const absl::StatusOr<std::string> service = serviceOf(*request);
-  if (!service.ok()) {
-    reactor->Finish(statusToGrpc(service.status()));
-    return reactor;
-  }
-  HealthCheckResponse message;
-  message.set_status(servingOf(*service));
-  if (message.status() == HealthCheckResponse::SERVICE_UNKNOWN) {
-    reactor->Finish(statusToGrpc(absl::NotFoundError("this server has no such service")));
-    return reactor;
-  }
-  *response = bytesFromMessage(message);
-  reactor->Finish(grpc::Status::OK);
-  return reactor;
-}
-
-grpc::ServerWriteReactor<grpc::ByteBuffer>* HealthService::Watch(
-    grpc::CallbackServerContext* context, const grpc::ByteBuffer* request) {
-  const absl::StatusOr<std::string> service = serviceOf(*request);
-  const auto watch = std::make_shared<HealthWatch>(
-      identityOfHost(clientHost(*context)),
-      service.ok() ? servingOf(*service) : HealthCheckResponse::UNKNOWN);
-  if (!service.ok()) watch->end(service.status());
-  watches_.open(watch);
-  // A drain that began meanwhile may have missed it.
-  if (is_draining_) watch->drain();
-  return watch.get();
 }
 
 }  // namespace viewloom

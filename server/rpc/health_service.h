@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The health of the server, by gRPC's own protocol. It needs no token. Unlike the library's
-// service, it counts the calls that watch, and prices them.
+// service, it counts its calls, and prices them.
 #pragma once
 
 #include <atomic>
+#include <cstdint>
 #include <set>
 #include <string>
 
@@ -11,39 +12,34 @@
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "rpc/health_watch.h"
 #include "rpc/live_calls.h"
+#include "rpc/one_request_call.h"
 
 namespace viewloom {
 
-// Calls that watch the health, at a time. A client needs one for each of its connections.
-inline constexpr size_t kHealthWatchesMax = 1024;
+// Calls that watch the health, and calls that ask once, at a time. A client needs one for each of
+// its connections. They have a share of memory of their own: a client whose streams take all of
+// its share is well nevertheless.
+inline constexpr size_t kHealthCallsMax = 1024;
 
-// Thread-safety: all methods may be called from any thread.
-class HealthService final : public grpc::health::v1::Health::WithRawCallbackMethod_Check<
-                                grpc::health::v1::Health::WithRawCallbackMethod_Watch<
-                                    grpc::health::v1::Health::Service>> {
+// Thread-safety: all methods may be called from any thread, tick() from one.
+class HealthService final : public EarlyService<grpc::health::v1::Health::Service> {
  public:
   // Full names of the services that it knows, beside the whole server (""). The budget outlives it.
   HealthService(MemoryBudget& memory, std::set<std::string> services);
 
-  // To be called every kTick: gives back the price of watches that have ended.
-  void tick() {
-    watches_.forEach([](HealthWatch&) {});
-  }
+  // To be called every kTick; cuts calls like IngestService::tick.
+  void tick(uint32_t unread_ticks_max);
   // NOT_SERVING from now on.
   void drain();
-  // Ends all watches, and those to come, with UNAVAILABLE.
+  // Ends all calls, and those to come, with UNAVAILABLE.
   void end();
 
  private:
-  grpc::ServerUnaryReactor* Check(grpc::CallbackServerContext* context,
-                                  const grpc::ByteBuffer* request,
-                                  grpc::ByteBuffer* response) override;
-  grpc::ServerWriteReactor<grpc::ByteBuffer>* Watch(grpc::CallbackServerContext* context,
-                                                    const grpc::ByteBuffer* request) override;
-  Serving servingOf(const std::string& service) const;
+  absl::StatusOr<Serving> servingOf(grpc::ByteBuffer& request) const;
 
   const std::set<std::string> services_;
   std::atomic<bool> is_draining_ = false;
+  LiveCalls<QuestionCall> checks_;
   LiveCalls<HealthWatch> watches_;
 };
 

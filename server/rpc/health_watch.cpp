@@ -2,64 +2,43 @@
 #include "rpc/health_watch.h"
 
 #include "messages/wire_message.h"
-#include "rpc/status_to_grpc.h"
 
 namespace viewloom {
+namespace {
 
-void HealthWatch::open() {
-  std::lock_guard lock(mutex_);
-  self_ = shared_from_this();
-  is_open_ = true;
-  advance();
-}
+using grpc::health::v1::HealthCheckResponse;
+
+}  // namespace
 
 void HealthWatch::drain() {
-  using grpc::health::v1::HealthCheckResponse;
   std::lock_guard lock(mutex_);
+  is_draining_ = true;
   if (newest_ != HealthCheckResponse::SERVING) return;
-  newest_ = HealthCheckResponse::NOT_SERVING;
-  untold_ = newest_;
+  tell(HealthCheckResponse::NOT_SERVING);
   advance();
 }
 
-void HealthWatch::end(const absl::Status& status) {
+absl::Status HealthWatch::handleRequest(grpc::ByteBuffer& bytes) {
+  const absl::StatusOr<Serving> serving = serving_of_(bytes);
+  VIEWLOOM_RETURN_IF_ERROR(serving.status());
   std::lock_guard lock(mutex_);
-  if (!end_status_.has_value()) end_status_ = statusToGrpc(status);
+  // A drain that began meanwhile has told nothing yet.
+  const bool has_ended = is_draining_ && *serving == HealthCheckResponse::SERVING;
+  tell(has_ended ? HealthCheckResponse::NOT_SERVING : *serving);
   advance();
+  return absl::OkStatus();
 }
 
-void HealthWatch::OnWriteDone(bool ok) {
-  {
-    std::lock_guard lock(mutex_);
-    outgoing_.Clear();
-    is_writing_ = false;
-    if (ok) advance();
-  }
-  if (!ok) OnCancel();
+void HealthWatch::tell(Serving serving) {
+  newest_ = serving;
+  is_untold_ = true;
 }
 
-void HealthWatch::OnCancel() {
-  end(absl::CancelledError("the call was cancelled"));
-}
-
-void HealthWatch::OnDone() {
-  std::shared_ptr<HealthWatch> self;  // let go after the lock
-  std::lock_guard lock(mutex_);
-  self = std::move(self_);
-}
-
-void HealthWatch::advance() {
-  if (!is_open_ || is_writing_ || is_finished_) return;
-  if (end_status_.has_value()) {
-    is_finished_ = true;
-    Finish(*end_status_);
-  } else if (untold_.has_value()) {
-    grpc::health::v1::HealthCheckResponse response;
-    response.set_status(*std::exchange(untold_, std::nullopt));
-    outgoing_ = bytesFromMessage(response);
-    is_writing_ = true;
-    StartWrite(&outgoing_);
-  }
+std::optional<grpc::ByteBuffer> HealthWatch::takeMessage() {
+  if (!std::exchange(is_untold_, false)) return std::nullopt;
+  HealthCheckResponse response;
+  response.set_status(*newest_);
+  return bytesFromMessage(response);
 }
 
 }  // namespace viewloom

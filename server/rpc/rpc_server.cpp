@@ -15,8 +15,7 @@ namespace {
 // A chunk of 1 MiB and what surrounds it. Calls limit their other messages further.
 constexpr int kReceiveBytesMax = 2 << 20;
 // Calls at a time on one connection: displays and streams of one program. Libraries hold further
-// calls back, and proxies open another connection for them. A call whose request does not come is
-// seen by nobody here, so that this limit is the only one of such calls.
+// calls back, and proxies open another connection for them.
 constexpr int kConnectionCallsMax = 128;
 // Threads for calls of reflection, each of which keeps one for as long as it is open. Our services
 // have none of these. The library refuses calls beyond them.
@@ -98,7 +97,7 @@ RpcServer::RpcServer(const RpcServerOptions& options, const RpcParts& parts,
                 .metrics = parts.metrics,
                 .limits = description.atlas_limits},
                parts.access, parts.memory),
-      catalog_(parts.directory, parts.broadcaster, parts.access, description),
+      catalog_(parts.directory, parts.broadcaster, parts.access, parts.memory, description),
       health_(parts.memory,
               {v1::IngestService::service_full_name(), v1::DisplayService::service_full_name(),
                v1::CatalogService::service_full_name()}) {
@@ -145,7 +144,8 @@ absl::Status RpcServer::health() const {
 void RpcServer::tick() {
   ingest_.tick(unread_ticks_max_);
   display_.tick(unread_ticks_max_);
-  health_.tick();
+  catalog_.tick(unread_ticks_max_);
+  health_.tick(unread_ticks_max_);
   if (tick_count_++ % kProbeTicks != 0 || is_draining_) return;
   probe_->ask();
   metrics_.grpc_connections.set(static_cast<double>(listener_.connectionCount()));
@@ -154,6 +154,7 @@ void RpcServer::tick() {
 void RpcServer::shutdown() {
   listener_.stop();
   health_.end();
+  catalog_.end();
   server_->Shutdown(std::chrono::system_clock::now() + drain_time_);
   server_->Wait();
   ticker_.reset();

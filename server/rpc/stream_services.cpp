@@ -2,21 +2,10 @@
 #include "rpc/stream_services.h"
 
 #include "admission/request_boundary.h"
-#include "rpc/status_to_grpc.h"
+#include "rpc/call_access.h"
+#include "rpc/refused_call.h"
 
 namespace viewloom {
-namespace {
-
-using StreamReactor = grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>;
-
-// A call of somebody who may not call: it ends at once, and takes no place among the open calls.
-class RefusedCall final : public StreamReactor {
- public:
-  explicit RefusedCall(const absl::Status& status) { Finish(statusToGrpc(status)); }
-  void OnDone() override { delete this; }
-};
-
-}  // namespace
 
 grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::PublishFrames(
     grpc::CallbackServerContext* context) {

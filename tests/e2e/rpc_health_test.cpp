@@ -35,9 +35,9 @@ TEST(HealthService, leavesWatchesOfItsHealthToOtherClients) {
     health::HealthCheckResponse response;
     return watches.back()->reader->Read(&response);
   };
-  while (watches.size() <= kHealthWatchesMax && isOpened()) {
+  while (watches.size() <= kHealthCallsMax && isOpened()) {
   }
-  EXPECT_EQ(watches.size(), kHealthWatchesMax * 3 / 4 + 1);
+  EXPECT_EQ(watches.size(), kHealthCallsMax * 3 / 4 + 1);
   EXPECT_EQ(watches.back()->reader->Finish().error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   for (const auto& watch : watches) watch->context.TryCancel();
 }

@@ -4,14 +4,8 @@
 
 #include <filesystem>
 #include <iterator>
-#include <memory>
-#include <vector>
 
-#include <grpcpp/client_context.h>
-#include <grpcpp/completion_queue.h>
-#include <grpcpp/generic/generic_stub.h>
-
-#include "e2e/patience.h"
+#include "e2e/silent_calls.h"
 #include "e2e/test_server.h"
 
 namespace viewloom::rpc_reflection_test {
@@ -25,37 +19,16 @@ std::ptrdiff_t threadCount() {
   return std::distance(std::filesystem::directory_iterator("/proc/self/task"), {});
 }
 
-// A call that was begun, and says nothing.
-struct IdleCall {
-  grpc::ClientContext context;
-  std::unique_ptr<grpc::GenericClientAsyncReaderWriter> stream;
-  grpc::Status status;
-};
-
 TEST(Reflection, refusesCallsThatWouldTakeManyThreads) {
   TestServer server;
   const std::ptrdiff_t thread_count = threadCount();
-  grpc::CompletionQueue queue;
-  grpc::GenericStub stub(server.connect());
-  std::vector<std::unique_ptr<IdleCall>> calls;
-  const auto waitForNext = [&queue] {
-    void* tag = nullptr;
-    bool ok = false;
-    return queue.Next(&tag, &ok);
-  };
+  SilentCalls calls(server.connect());
   for (size_t i = 0; i < kCalls; ++i) {
-    IdleCall& call = *calls.emplace_back(std::make_unique<IdleCall>());
-    endAfterAMinute(call.context);
-    call.stream = stub.PrepareCall(
-        &call.context, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", &queue);
-    call.stream->StartCall(nullptr);
-    ASSERT_TRUE(waitForNext());
+    ASSERT_TRUE(calls.open("/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo"));
   }
-  calls.back()->stream->Finish(&calls.back()->status, nullptr);
-  ASSERT_TRUE(waitForNext());  // the server has looked at all of them
-  EXPECT_EQ(calls.back()->status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  // The server has looked at all of them then.
+  EXPECT_EQ(calls.endOfLast().error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
   EXPECT_LT(threadCount(), thread_count + kThreadsMax);
-  for (const auto& call : calls) call->context.TryCancel();
 }
 
 }  // namespace
