@@ -33,6 +33,7 @@ struct Reservation::Ledger {
   const uint64_t total_bytes;
   mutable std::mutex mutex;  // guards what follows
   uint64_t reserved_bytes = 0;
+  uint64_t peak_bytes = 0;  // since takePeakBytes()
   std::array<uint64_t, size_t(MemoryUse::kCount)> by_use{};
   std::map<std::string, uint64_t> by_identity;  // bytes; of those that have some
   std::vector<std::weak_ptr<IdleMemory>> idle;
@@ -51,6 +52,7 @@ struct Reservation::Ledger {
       by_identity[request.identity] += request.bytes;
     }
     reserved_bytes += request.bytes;
+    peak_bytes = std::max(peak_bytes, reserved_bytes);
     by_use[size_t(request.use)] += request.bytes;
   }
 
@@ -194,6 +196,11 @@ uint64_t MemoryBudget::idleBytes() const {
     idle_bytes += idle->idleBytes();
   }
   return idle_bytes;
+}
+
+uint64_t MemoryBudget::takePeakBytes() {
+  std::lock_guard lock(ledger_->mutex);
+  return std::exchange(ledger_->peak_bytes, ledger_->reserved_bytes);
 }
 
 MemoryBudget& unboundedMemory() {

@@ -95,6 +95,8 @@ class MemoryBudget {
   uint64_t reservedBytes() const;
   uint64_t reservedBytes(MemoryUse use) const;
   uint64_t idleBytes() const;
+  // The most that was reserved at a time since the last call. To be called by one thread.
+  uint64_t takePeakBytes();
 
  private:
   // Otherwise it is refused at once: what others hold idle would be given up in vain.

@@ -19,19 +19,25 @@ constexpr std::chrono::seconds kUnusedFor{3};
 
 void returnUnused(MemoryBudget& budget, HeapWatch& heap) {
   const uint64_t released_bytes = budget.releaseIdle(kUnusedFor);
-  const bool is_worth = heap.noteUsed(budget.reservedBytes() + budget.idleBytes());
-  if (is_worth || released_bytes >= HeapWatch::kWorthReturning_bytes) returnFreedMemory();
+  // The peak: memory that was there for less than a second is still the heap's.
+  const uint64_t used_bytes = budget.takePeakBytes() + budget.idleBytes();
+  if (heap.note({.used_bytes = used_bytes, .released_bytes = released_bytes})) returnFreedMemory();
 }
 
 }  // namespace
 
-bool HeapWatch::noteUsed(uint64_t used_bytes) {
-  last_bytes_[call_count_++ % last_bytes_.size()] = used_bytes;
-  highest_bytes_ = std::max(highest_bytes_, used_bytes);
-  if (call_count_ < last_bytes_.size()) return false;
+bool HeapWatch::note(const Look& look) {
+  last_bytes_[call_count_++ % kLooks] = look.used_bytes;
+  highest_bytes_ = std::max(highest_bytes_, look.used_bytes);
+  released_bytes_ += look.released_bytes;
   const uint64_t lately_bytes = *std::ranges::max_element(last_bytes_);
-  if (highest_bytes_ - lately_bytes < kWorthReturning_bytes) return false;
+  const bool has_fallen =
+      call_count_ >= kLooks && highest_bytes_ - lately_bytes >= kWorthReturning_bytes;
+  const bool was_released = released_bytes_ >= kWorthReturning_bytes;
+  if (++pause_count_ < kLooks || (!has_fallen && !was_released)) return false;
   highest_bytes_ = lately_bytes;
+  released_bytes_ = 0;
+  pause_count_ = 0;
   return true;
 }
 

@@ -171,5 +171,13 @@ TEST(MemoryText, hasThreeFiguresAtMost) {
   EXPECT_EQ(memoryText(128'000'000'000), "128 GB");
 }
 
+TEST(MemoryBudget, saysTheMostThatWasReservedAtATimeSinceTheLastLook) {
+  MemoryBudget budget(1000);
+  const Reservation kept = *budget.tryReserve({.bytes = 100});
+  budget.tryReserve({.bytes = 500})->release();
+  EXPECT_EQ(budget.takePeakBytes(), 600U);
+  EXPECT_EQ(budget.takePeakBytes(), 100U);
+}
+
 }  // namespace
 }  // namespace viewloom::memory_budget_test

@@ -14,24 +14,40 @@ constexpr uint64_t kMiB = uint64_t{1} << 20;
 
 TEST(HeapWatch, returnsMemoryOnceItHasStayedFree) {
   HeapWatch heap;
-  EXPECT_FALSE(heap.noteUsed(100 * kMiB));
-  EXPECT_FALSE(heap.noteUsed(100 * kMiB));
-  EXPECT_FALSE(heap.noteUsed(100 * kMiB));
-  EXPECT_FALSE(heap.noteUsed(10 * kMiB));
-  EXPECT_FALSE(heap.noteUsed(10 * kMiB));
-  EXPECT_TRUE(heap.noteUsed(10 * kMiB));
-  EXPECT_FALSE(heap.noteUsed(10 * kMiB));
+  EXPECT_FALSE(heap.note({.used_bytes = 100 * kMiB}));
+  EXPECT_FALSE(heap.note({.used_bytes = 100 * kMiB}));
+  EXPECT_FALSE(heap.note({.used_bytes = 100 * kMiB}));
+  EXPECT_FALSE(heap.note({.used_bytes = 10 * kMiB}));
+  EXPECT_FALSE(heap.note({.used_bytes = 10 * kMiB}));
+  EXPECT_TRUE(heap.note({.used_bytes = 10 * kMiB}));
+  EXPECT_FALSE(heap.note({.used_bytes = 10 * kMiB}));
 }
 
 TEST(HeapWatch, leavesTheHeapToStreamsWhoseFramesComeAndGo) {
   HeapWatch heap;
-  for (int i = 0; i < 50; ++i) EXPECT_FALSE(heap.noteUsed(i % 2 == 0 ? 100 * kMiB : 10 * kMiB));
+  for (int i = 0; i < 50; ++i)
+    EXPECT_FALSE(heap.note({.used_bytes = i % 2 == 0 ? 100 * kMiB : 10 * kMiB}));
 }
 
 TEST(HeapWatch, waitsForAsMuchAsIsWorthIt) {
   HeapWatch heap;
-  for (int i = 0; i < 10; ++i) EXPECT_FALSE(heap.noteUsed(100 * kMiB));
-  for (int i = 0; i < 10; ++i) EXPECT_FALSE(heap.noteUsed(85 * kMiB));
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(heap.note({.used_bytes = 100 * kMiB}));
+  for (int i = 0; i < 10; ++i) EXPECT_FALSE(heap.note({.used_bytes = 85 * kMiB}));
+}
+
+TEST(HeapWatch, returnsWhatWasGivenUpAtOnce) {
+  HeapWatch heap;
+  EXPECT_FALSE(heap.note({.used_bytes = 100 * kMiB, .released_bytes = 10 * kMiB}));
+  EXPECT_TRUE(heap.note({.used_bytes = 90 * kMiB, .released_bytes = 10 * kMiB}));
+}
+
+TEST(HeapWatch, pausesBetweenTwoWalks) {
+  HeapWatch heap;
+  size_t walk_count = 0;
+  for (int i = 0; i < 30; ++i) {
+    walk_count += heap.note({.used_bytes = 100 * kMiB, .released_bytes = 50 * kMiB});
+  }
+  EXPECT_EQ(walk_count, 30 / HeapWatch::kLooks);
 }
 
 TEST(MemoryReturn, ticksAndEndsAtOnce) {
