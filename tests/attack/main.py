@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: Apache-2.0
 """Attacks a server of its own on loopback, and judges a healthy pair beside it.
 
-Arguments: viewloomd [--short | --suite] [--front haproxy|nginx] [ATTACK...]. --short takes about
-3 s an attack. --suite is the same, judged as beside other tests. --front puts the reference
-configuration of that front before the server. PYTHONPATH has the Python client. Prints a table. The
-exit code is 1 if an attack did what it should not.
+Arguments: viewloomd [--short | --suite] [--front haproxy|nginx | --before OLDER] [ATTACK...].
+--short takes about 3 s an attack. --suite is the same, judged as beside other tests. --front puts
+the reference configuration of that front before the server. --before attacks an older viewloomd,
+too, and puts both in one table. PYTHONPATH has the Python client. Prints a table. The exit code is
+1 if an attack did what it should not.
 """
 
 import argparse
 import contextlib
 import sys
 
+import before_after
 import budget
 import connection_floods
 import front
@@ -30,7 +32,8 @@ FRONT = http2_floods.ATTACKS + (message_floods.gzip_messages,)
 def run(words):
     parts = contextlib.ExitStack()
     with parts:
-        server = parts.enter_context(Server(words.viewloomd, settings=front.SETTINGS))
+        settings = before_after.known_settings(words.viewloomd, front.SETTINGS)
+        server = parts.enter_context(Server(words.viewloomd, settings=settings))
         pair = HealthyPair(server.address)
         parts.callback(pair.stop)
         address, pids = server.address, [server.process.pid]
@@ -58,7 +61,9 @@ def main():
     parser.add_argument("viewloomd")
     parser.add_argument("--short", action="store_true")
     parser.add_argument("--suite", action="store_true")
-    parser.add_argument("--front", choices=front.KINDS)
+    other = parser.add_mutually_exclusive_group()
+    other.add_argument("--front", choices=front.KINDS)
+    other.add_argument("--before", metavar="OLDER", help="viewloomd of an older version")
     parser.add_argument("attacks", nargs="*", metavar="ATTACK",
                         help=", ".join(attack.__name__ for attack in ALL))
     words = parser.parse_intermixed_args()
@@ -66,6 +71,9 @@ def main():
         print(f"skipped: there is no {words.front}; install it, or name it in "
               f"VIEWLOOM_{words.front.upper()}")
         return front.SKIPPED
+    if words.before:
+        names = words.attacks or [attack.__name__ for attack in ALL]
+        return 0 if before_after.table(words.before, words.viewloomd, names, words.short) else 1
     return run(words)
 
 
