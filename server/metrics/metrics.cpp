@@ -51,9 +51,10 @@ Gauge gauge(prometheus::Registry& registry, const char* name, const char* help) 
   return Gauge(prometheus::BuildGauge().Name(name).Help(help).Register(registry).Add({}));
 }
 
-Histogram motionHistogram(prometheus::Registry& registry, const char* name, const char* help) {
+Histogram histogram(prometheus::Registry& registry, const char* name, const char* help,
+                    const prometheus::Histogram::BucketBoundaries& bounds) {
   return Histogram(
-      prometheus::BuildHistogram().Name(name).Help(help).Register(registry).Add({}, kMotionBounds));
+      prometheus::BuildHistogram().Name(name).Help(help).Register(registry).Add({}, bounds));
 }
 
 template <typename Label, typename Handle, typename Family, typename... Options, size_t... kIndices>
@@ -100,14 +101,6 @@ PayerClass classOf(const std::vector<Payer>& payers) {
   if (payers.empty() || payers.front().isServer()) return PayerClass::kServer;
   const bool are_local = std::ranges::all_of(payers, &Payer::isLocal);
   return are_local ? PayerClass::kLocal : PayerClass::kRemote;
-}
-
-Histogram outputDelayHistogram(prometheus::Registry& registry) {
-  return Histogram(prometheus::BuildHistogram()
-                       .Name("viewloom_output_delay_seconds")
-                       .Help("From the tick of a display with an output rate to its atlas.")
-                       .Register(registry)
-                       .Add({}, kStageBounds));
 }
 
 }  // namespace
@@ -176,12 +169,14 @@ Metrics::Metrics()
                                    "before was still on its way, or that a newer one overtook.")),
       atlases_presented(counter(store_->registry, "viewloom_atlases_presented_total",
                                 "Atlases that gRPC clients say they have shown.")),
-      motion_to_image(motionHistogram(store_->registry, "viewloom_motion_to_image_seconds",
-                                      "From when the eyes before a tracked display were measured "
-                                      "to when their picture was shown, as gRPC clients say.")),
-      eye_poses_age(motionHistogram(store_->registry, "viewloom_eye_poses_age_seconds",
-                                    "How long eye poses had been there when the first rays of "
-                                    "their atlas were submitted.")),
+      motion_to_image(histogram(store_->registry, "viewloom_motion_to_image_seconds",
+                                "From when the eyes before a tracked display were measured "
+                                "to when their picture was shown, as gRPC clients say.",
+                                kMotionBounds)),
+      eye_poses_age(histogram(store_->registry, "viewloom_eye_poses_age_seconds",
+                              "How long eye poses had been there when the first rays of "
+                              "their atlas were submitted.",
+                              kMotionBounds)),
       http_responses(counters<HttpAnswer>(store_->registry, "viewloom_http_responses_total",
                                           "HTTP responses, by kind of status.", "answer",
                                           kHttpAnswers)),
@@ -213,13 +208,17 @@ Metrics::Metrics()
                                          "Requests for which the budget had no room, by what for.",
                                          "use", kMemoryUses)),
       stage(stageHistograms(store_->registry)),
-      output_delay(outputDelayHistogram(store_->registry)),
+      output_delay(histogram(store_->registry, "viewloom_output_delay_seconds",
+                             "From the tick of a display with an output rate to its atlas.",
+                             kStageBounds)),
       grpc_connections(
           gauge(store_->registry, "viewloom_grpc_connections", "gRPC connections open now.")),
       connections_refused(
           counters<Transport>(store_->registry, "viewloom_connections_refused_total",
                               "Connections closed at once, because their port had too many.",
                               "transport", kTransports)),
+      call_refusal(histogram(store_->registry, "viewloom_call_refusal_seconds",
+                             "From a message of a gRPC call to its refusal.", kPieceBounds)),
       engine_seconds(counters<PayerClass>(store_->registry, "viewloom_engine_seconds_total",
                                           "Time of engines and their threads, by whom it was for.",
                                           "payer", kPayerClasses)),

@@ -152,6 +152,7 @@ class Metrics {
 
   Gauge grpc_connections;                            // open now
   Labelled<Transport, Counter> connections_refused;  // {transport}; over the limit of their port
+  Histogram call_refusal;  // viewloom_call_refusal_seconds; from a message to its refusal
 
   Labelled<PayerClass, Counter> engine_seconds;     // {payer}; of engines and their threads
   Labelled<EngineWork, Histogram> piece;            // viewloom_piece_seconds{work}; as measured

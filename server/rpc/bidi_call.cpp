@@ -59,9 +59,10 @@ void BidiCall::OnReadDone(bool ok) {
 }
 
 void BidiCall::handle(bool ok) {
+  const auto begun = std::chrono::steady_clock::now();
   const absl::Status status =
       unlessThrown([&] { return ok ? handleMessage(incoming_) : handleHalfClose(); });
-  if (!status.ok()) end(status);
+  if (!status.ok()) refuse(status, begun);
   bool ended = false;
   {
     std::lock_guard lock(mutex_);
@@ -69,6 +70,14 @@ void BidiCall::handle(bool ok) {
     ended = end_status_.has_value();
   }
   if (ended) dropReads();
+}
+
+void BidiCall::refuse(const absl::Status& status, std::chrono::steady_clock::time_point begun) {
+  if (refusal_seconds_ != nullptr) {
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begun;
+    refusal_seconds_->observe(took.count());
+  }
+  end(status);
 }
 
 void BidiCall::OnWriteDone(bool ok) {

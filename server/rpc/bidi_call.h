@@ -2,6 +2,7 @@
 // The mechanics of a bidirectional call on raw bytes: one read and one write at a time, one finish.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <grpcpp/support/server_callback.h>
 
 #include "base/status.h"
+#include "metrics/metrics.h"
 #include "rpc/liveness.h"
 
 namespace viewloom {
@@ -27,6 +29,8 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
  public:
   // The library's side of the call, which lives until OnDone. To be called before open().
   void setContext(const grpc::CallbackServerContext& context);
+  // Observes how long refusals take. To be called before open(); the histogram outlives the call.
+  void timeRefusals(const Histogram& seconds) { refusal_seconds_ = &seconds; }
   // Starts to read; call once, on a call that a shared_ptr owns.
   void open();
   // Ends the call once takeMessage has nothing more to write; the first status wins.
@@ -72,11 +76,14 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
 
  private:
   void handle(bool ok);
+  // Ends a call whose message was refused.
+  void refuse(const absl::Status& status, std::chrono::steady_clock::time_point begun);
   // Calls release(): nobody is there who could be told about an exception.
   void letGo();
   std::optional<grpc::ByteBuffer> nextMessage();
 
   std::shared_ptr<BidiCall> self_;
+  const Histogram* refusal_seconds_ = nullptr;
   grpc::ByteBuffer incoming_;
   grpc::ByteBuffer outgoing_;
   bool opened_ = false;

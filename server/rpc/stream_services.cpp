@@ -14,6 +14,7 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* IngestService::Publ
   if (!caller.ok()) return new RefusedCall(caller.status());
   const auto call = std::make_shared<PublishCall>(parts_, *std::move(caller), clientHost(*context));
   call->setContext(*context);
+  call->timeRefusals(parts_.metrics.call_refusal);
   calls_.open(call);
   return call.get();
 }
@@ -44,6 +45,7 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* DisplayService::Str
   if (!caller.ok()) return new RefusedCall(caller.status());
   const auto call = std::make_shared<WatchCall>(parts_, *std::move(caller), clientHost(*context));
   call->setContext(*context);
+  call->timeRefusals(parts_.metrics.call_refusal);
   calls_.open(call);
   return call.get();
 }

@@ -86,6 +86,13 @@ TEST_F(LargeMessages, readsNoDisplayOfManyEmptyCameras) {
   EXPECT_THAT(errorOf(kAdviseSource, advise), HasSubstr("accepted is up to 262144"));
 }
 
+TEST_F(LargeMessages, areRefusedInATimeThatIsMeasured) {
+  v1::StreamAtlasesRequest open;
+  *open.mutable_open()->mutable_display() = manyCameras(200'000, {});
+  EXPECT_THAT(errorOf(kStreamAtlases, open), HasSubstr("accepted is up to 262144"));
+  EXPECT_THAT(server_.metrics().text(), HasSubstr("viewloom_call_refusal_seconds_count 1"));
+}
+
 TEST_F(LargeMessages, readsTheLargestDisplay) {
   v1::StreamAtlasesRequest open;
   open.mutable_open()->set_stream("none");

@@ -65,25 +65,27 @@ def judged_loads(rows, limits):
 
 @dataclass
 class RefusalRow:
-    """Round trips of calls that are refused, while the server has more to do than it can."""
+    """Calls that are refused while the server has more to do than it can: round trips, and what
+    passes inside the server from the message to its refusal."""
     median_s: float
     p90_s: float
     rest_median_s: float  # the same of a server with nothing to do
+    inside_p99_s: float
     count: int
     found: list = field(default_factory=list)
 
-    HEADER = ("| refusal under load, ms, median | 90 of 100 | at rest, median | calls | verdict |\n"
-              "|---|---|---|---|---|")
+    HEADER = ("| refusal inside the server, ms, 99 of 100 | round trip under load, median "
+              "| 90 of 100 | at rest, median | calls | verdict |\n|---|---|---|---|---|---|")
 
     def text(self):
-        return (f"| {self.median_s * 1e3:.1f} | {self.p90_s * 1e3:.1f} "
+        return (f"| {self.inside_p99_s * 1e3:.1f} | {self.median_s * 1e3:.1f} "
+                f"| {self.p90_s * 1e3:.1f} "
                 f"| {self.rest_median_s * 1e3:.1f} | {self.count} | {verdicts.verdict(self)} |")
 
 
 def judged_refusal(row, limits):
-    """A round trip is more than what passes inside the server."""
-    if row.median_s > limits.refusal_s:
-        row.found.append(f"{row.median_s * 1e3:.1f} ms, at most {limits.refusal_s * 1e3:.0f}")
+    if row.inside_p99_s > limits.refusal_s:
+        row.found.append(f"{row.inside_p99_s * 1e3:.1f} ms, at most {limits.refusal_s * 1e3:.0f}")
     return row
 
 
@@ -144,6 +146,7 @@ def run(program, its_form):
         meter = Meter(server.process.pid)
         with server.address.channel() as channel:
             rest_s = refusals_s(channel)
+        before = metrics.read(server.address)
         for _ in range(run_count):
             for count in counts:
                 row, times_s = load_row(server, meter, count, seconds)
@@ -156,9 +159,11 @@ def run(program, its_form):
     for row in rows:
         print(row.text())
     refused_s.sort()
+    inside = metrics.Histogram.between(before, snapshot, "viewloom_call_refusal_seconds")
     refusal = judged_refusal(
         RefusalRow(statistics.median(refused_s), refused_s[int(0.9 * len(refused_s))],
-                   statistics.median(rest_s), len(refused_s)), its_form.limits)
+                   statistics.median(rest_s), inside.quantile(0.99), len(refused_s)),
+        its_form.limits)
     pictures = snapshot.value("viewloom_atlases_traced_total")
     print(f"\n{RefusalRow.HEADER}\n{refusal.text()}\nframes prepared for each picture: "
           f"{snapshot.value('viewloom_structures_built_total') / max(1, pictures):.2f}", flush=True)

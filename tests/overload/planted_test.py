@@ -140,7 +140,7 @@ class PlantedVerdicts(unittest.TestCase):
         self.assertIn("85 pictures a second came of fewer streams", collapsed)
 
     def test_a_slow_refusal_is_found(self):
-        row = overcommit.RefusalRow(0.03, 0.05, 0.002, 20)
+        row = overcommit.RefusalRow(0.001, 0.002, 0.001, 0.03, 20)
         self.assertIn("30.0 ms, at most 10",
                       self.found(overcommit.judged_refusal(row, FULL)))
 
