@@ -38,14 +38,16 @@ class LoadRow:
     runs: int
     found: list = field(default_factory=list)
 
-    HEADER = ("| streams | atlases a second | CPU of server, ms each | cores of server "
-              "| of clients | runs | verdict |\n|---|---|---|---|---|---|---|")
+    HEADER = ("| streams | atlases a second | a CPU second of the server | CPU of server, ms each "
+              "| cores of server | of clients | runs | verdict |\n"
+              "|---|---|---|---|---|---|---|---|")
 
     def per_cpu_s(self):
         return 1e3 / self.server_ms if self.server_ms else 0.0
 
     def text(self):
-        return (f"| {self.streams} | {self.atlases_hz:.1f} | {self.server_ms:.2f} "
+        return (f"| {self.streams} | {self.atlases_hz:.1f} | {self.per_cpu_s():.0f} "
+                f"| {self.server_ms:.2f} "
                 f"| {self.server_cores:.2f} | {self.client_cores:.2f} | {self.runs} "
                 f"| {verdicts.verdict(self)} |")
 

@@ -156,7 +156,10 @@ class PlantedProcesses(unittest.TestCase):
     def test_a_server_that_does_not_end_is_found(self):
         self.assertIn("exit code -9", self.exit_of(DEAF, 0.5))
         row = terminations.ExitRow(1, "planted", 0.5, 12.0, 0, 3, [])
+        good = terminations.ExitRow(2, "planted", 0.5, 1.0, 0, 4, [])
         self.assertIn("took 12.0 s", " ".join(terminations.judged_exit(row, FULL).found))
+        self.assertEqual(terminations.summary([row, good]),
+                         "1 of 2 clean, 0 of 7 atlases torn, the longest took 12.0 s")
 
     def test_a_server_that_ends_with_a_fault_is_found(self):
         self.assertIn("exit code 3", self.exit_of(FAULTY))

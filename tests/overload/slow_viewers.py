@@ -30,11 +30,12 @@ class AgeRow:
     client_cpu_s: float
     found: list = field(default_factory=list)
 
-    HEADER = ("| p99 age alone, ms | beside the others | dropped | runs | CPU of clients, s "
-              "| verdict |\n|---|---|---|---|---|---|")
+    HEADER = ("| p99 age alone, ms | beside the others | ratio | dropped | runs "
+              "| CPU of clients, s | verdict |\n|---|---|---|---|---|---|---|")
 
     def text(self):
-        return (f"| {self.alone_s * 1e3:.1f} | {self.beside_s * 1e3:.1f} | {self.dropped} "
+        return (f"| {self.alone_s * 1e3:.1f} | {self.beside_s * 1e3:.1f} "
+                f"| {self.beside_s / self.alone_s:.2f} | {self.dropped} "
                 f"| {self.runs} | {self.client_cpu_s:.1f} | {verdicts.verdict(self)} |")
 
 

@@ -107,6 +107,13 @@ def judged_exit(row, limits):
     return row
 
 
+def summary(rows):
+    clean = sum(not row.found for row in rows)
+    torn = sum(len(row.torn) for row in rows)
+    return (f"{clean} of {len(rows)} clean, {torn} of {sum(row.atlases for row in rows)} atlases "
+            f"torn, the longest took {max(row.took_s for row in rows):.1f} s")
+
+
 def end(process, patience_s=PATIENCE_S):
     """(exit code, seconds); kills what does not end."""
     begun_s = time.monotonic()
@@ -147,4 +154,5 @@ def run(program, its_form):
         row = exit_row(program, seed, 4.0 if its_form.is_long else 1.0)
         rows.append(judged_exit(row, its_form.limits))
         print(row.text(), flush=True)
+    print(summary(rows), flush=True)
     return rows
