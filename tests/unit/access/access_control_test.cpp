@@ -191,6 +191,10 @@ TEST_F(Access, takesJwtsOfTheKeysThatThereAre) {
   EXPECT_TRUE(caller->mayUse("room.1").ok());
   EXPECT_EQ(caller->mayUse("hall").code(), absl::StatusCode::kPermissionDenied);
   EXPECT_EQ(access->admit(kStreamAtlases, "peer", jwt(new_key)).status().code(), kUnauthenticated);
+  std::ofstream(keys_) << "nonsense";
+  waitForLook();
+  EXPECT_TRUE(access->admit(kStreamAtlases, "peer", jwt(old_key)).ok());
+  EXPECT_THAT(auditText(), HasSubstr("stays in force"));
   writeKeys(json::array({new_key.jwk("2")}));
   waitForLook();
   EXPECT_EQ(caller->recheck().code(), kUnauthenticated);
