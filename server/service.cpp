@@ -147,7 +147,8 @@ void Service::Parts::connect() {
   });
   engine_room->onWanted([this] { intake.resume(); });
   directory.onRoomNeeded([this](const std::string& stream) {
-    if (broadcaster.subscriberCount(stream) > 0) return false;
+    // A frame that comes later would open the stream again, and nobody would forget it.
+    if (broadcaster.subscriberCount(stream) > 0 || !intake.forget(stream)) return false;
     engine_room->forgetStream(stream);
     return true;
   });

@@ -272,6 +272,21 @@ void FrameIntake::resume() {
   state_->work.notify_all();
 }
 
+bool FrameIntake::forget(const std::string& stream) {
+  std::unique_lock lock(state_->mutex);
+  const auto found = state_->streams.find(stream);
+  if (found == state_->streams.end()) return true;
+  if (std::erase(state_->queue, stream) == 0) return false;  // a frame of it is open
+  const std::optional<WaitingFrame> dropped = found->second.take();
+  state_->streams.erase(found);
+  lock.unlock();
+  dropped->on_taken();
+  reportRefused(dropped->report, dropped->collected.format.number,
+                absl::UnavailableError("its publisher has left, and the stream was dropped to make "
+                                       "room for others; publish it again"));
+  return true;
+}
+
 void FrameIntake::close() {
   std::vector<std::jthread> threads;
   {

@@ -43,6 +43,9 @@ class FrameIntake {
       std::function<void()> on_taken = [] {});
   // The sink may want frames that it did not want.
   void resume();
+  // The stream is to be forgotten: what waits of it is reported kRefused, and comes back to no
+  // sink. False, and nothing is changed, while a frame of it is decoded or handed over.
+  bool forget(const std::string& stream);
 
   // Waits until every frame that was accepted has gone to the sink or been reported. Frames offered
   // from now on are reported kRefused.

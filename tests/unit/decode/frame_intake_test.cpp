@@ -144,6 +144,43 @@ TEST(FrameIntake, goesOnAfterAFrameThatNobodyCouldTake) {
   EXPECT_EQ(sink.offered_count, 2);
 }
 
+// Wants no frame before it is told to.
+class ShutSink : public HeldSink {
+ public:
+  bool wantsFrame(const std::string&) override { return is_open; }
+  std::atomic<bool> is_open = false;
+};
+
+TEST(FrameIntake, dropsTheFrameThatWaitsOfAStreamThatIsForgotten) {
+  ShutSink sink;
+  Reports reports;
+  ManualClock clock;
+  BytePool pool(16);
+  std::atomic<int> taken_count = 0;
+  FrameIntake intake(sink, clock, pool, {.thread_count = 1});
+  intake.offer("a", onePixel(1), {}, reports.into("a"), [&] { ++taken_count; });
+  EXPECT_TRUE(intake.forget("a"));
+  EXPECT_EQ(taken_count, 1);
+  sink.is_open = true;
+  intake.offer("b", onePixel(2), {}, reports.into("b"));
+  intake.close();
+  EXPECT_EQ(reports.outcomes("a")[1], FrameOutcome::kRefused);
+  EXPECT_TRUE(sink.offered("a").empty());
+  EXPECT_EQ(sink.offered("b"), std::vector<uint64_t>{2});
+  EXPECT_TRUE(intake.forget("never seen"));
+}
+
+TEST_F(FrameIntakeTest, forgetsNoStreamOfWhichAFrameIsHandedOver) {
+  sink_.hold();
+  offer("a", onePixel(1));
+  sink_.waitForOffer();
+  EXPECT_FALSE(intake_.forget("a"));
+  sink_.letGo();
+  intake_.close();
+  EXPECT_TRUE(intake_.forget("a"));
+  EXPECT_EQ(reports_.outcomes("a")[1], FrameOutcome::kTraced);
+}
+
 TEST_F(FrameIntakeTest, deliversADecodedFrameWithItsTimes) {
   clock_.advance(99);
   offer("a", onePixel(1), {.first_chunk_ns = 10, .last_chunk_ns = 20});
