@@ -87,6 +87,23 @@ TEST_F(KernelCompilerTest, pausesBeforeItTriesAKernelAgainThatHadNoMemory) {
   compiler.drain();
 }
 
+TEST_F(KernelCompilerTest, tellsNobodyOnceItIsDrained) {
+  KernelCompiler compiler(1, failTest);
+  std::promise<void> begun;
+  MissingKernels kernels;
+  kernels.emplace(&begun, [&begun] {
+    begun.set_value();
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));  // while it is drained
+    throw std::bad_alloc();
+  });
+  std::atomic<bool> is_told = false;
+  compiler.compile(std::move(kernels), [&] { is_told = true; });
+  begun.get_future().wait();
+  compiler.drain();
+  std::this_thread::sleep_for(KernelCompiler::kPause + std::chrono::milliseconds(100));
+  EXPECT_FALSE(is_told);
+}
+
 TEST_F(KernelCompilerTest, compilesOthersInThePauseOfOneThatHadNoMemory) {
   KernelCompiler compiler(1, failTest);
   askAgain(compiler);

@@ -41,10 +41,15 @@ void KernelCompiler::compileAhead(MissingKernels kernels) {
 
 void KernelCompiler::drain() {
   std::unique_lock lock(mutex_);
+  forgetAll();
+  done_.wait(lock, [this] { return begun_count_ == 0; });
+  forgetAll();  // what those that had begun have ordered, or are to be told of later
+}
+
+void KernelCompiler::forgetAll() {
   waiting_.clear();
   ahead_.clear();
   late_.clear();
-  done_.wait(lock, [this] { return begun_count_ == 0; });
 }
 
 void KernelCompiler::run(const std::stop_token& stop) {

@@ -33,7 +33,7 @@ class KernelCompiler {
   void compile(MissingKernels kernels, std::function<void()> then);
   // Compiles these while nobody waits for others, in the order of the calls.
   void compileAhead(MissingKernels kernels);
-  // Forgets kernels that have not begun, and waits for the others.
+  // Forgets kernels that have not begun, and waits for the others. Then nobody is told any more.
   void drain();
 
   static constexpr std::chrono::milliseconds kPause{250};
@@ -59,7 +59,8 @@ class KernelCompiler {
   };
 
   void run(const std::stop_token& stop);
-  // These three are called under the lock.
+  // These four are called under the lock.
+  void forgetAll();
   bool waitForWork(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   OrderPtr takeLate();
   std::deque<Kernel>& next() { return waiting_.empty() ? ahead_ : waiting_; }
