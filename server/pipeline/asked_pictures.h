@@ -6,13 +6,14 @@
 #include <map>
 #include <mutex>
 #include <string>
-#include <vector>
 
 namespace viewloom {
 
 // Thread-safety: all methods may be called from any thread.
 class AskedPictures {
  public:
+  using Keys = std::multimap<std::string, std::string>;  // by stream
+
   void add(const std::string& stream, const std::string& picture_key) {
     std::lock_guard lock(mutex_);
     keys_.emplace(stream, picture_key);
@@ -26,19 +27,20 @@ class AskedPictures {
     if (found != end) keys_.erase(found);
   }
 
-  // Keys of all pictures of the stream; they wait no longer.
-  std::vector<std::string> takeAll(const std::string& stream) {
-    std::vector<std::string> keys;
+  // Stream and key of each picture of the stream; they wait no longer. Takes no memory: there may
+  // be none, and they would wait for ever.
+  Keys takeAll(const std::string& stream) {
+    Keys taken;
     std::lock_guard lock(mutex_);
-    const auto [begin, end] = keys_.equal_range(stream);
-    for (auto picture = begin; picture != end; ++picture) keys.push_back(picture->second);
-    keys_.erase(begin, end);
-    return keys;
+    for (auto picture = keys_.find(stream); picture != keys_.end(); picture = keys_.find(stream)) {
+      taken.insert(keys_.extract(picture));
+    }
+    return taken;
   }
 
  private:
   std::mutex mutex_;
-  std::multimap<std::string, std::string> keys_;  // by stream
+  Keys keys_;
 };
 
 }  // namespace viewloom

@@ -88,9 +88,9 @@ void FrameEntrance::queuePictures(const PipelineStream& stream) {
 }
 
 void FrameEntrance::beginAsked(const std::string& stream) {
-  const std::vector<std::string> picture_keys = asked_.takeAll(stream);
-  if (picture_keys.empty()) return;
-  for (const std::string& picture_key : picture_keys) events_.finish(picture_key);
+  const AskedPictures::Keys pictures = asked_.takeAll(stream);
+  if (pictures.empty()) return;
+  for (const auto& [name, picture_key] : pictures) events_.finish(picture_key);
   events_.on_finished();
 }
 
