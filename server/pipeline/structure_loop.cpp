@@ -124,7 +124,10 @@ BuildOutcome StructureLoop::buildNext(const PipelineStreamPtr& taken, BuildLane 
   if (auto newest = stream.inbox.take()) {
     const auto replaced = stream.frames.offer(*std::move(newest));
     if (replaced) links_.pipeline.metrics.replaced[HandOver::kStructure].add();
-    if (dropUnchanged(stream)) return BuildOutcome::kServed;
+    bool is_unchanged = false;  // where there is no memory to know it, the frame is built
+    const absl::Status status = withinMemory([&] { is_unchanged = dropUnchanged(stream); });
+    if (!status.ok()) log(LogLevel::kWarning, "stream ", stream.name, ": ", status.message());
+    if (is_unchanged) return BuildOutcome::kServed;
   }
   const OfferedFrame* const next = stream.frames.next();
   if (next == nullptr) return BuildOutcome::kNothing;
