@@ -2,6 +2,7 @@
 #include "pipeline/frame_entrance.h"
 
 #include <utility>
+#include <vector>
 
 #include "base/log.h"
 #include "pipeline/within_memory.h"
@@ -54,10 +55,11 @@ bool FrameEntrance::letIn(PipelineStream& stream) {
   return opened != FrameDoor::Opened::kNobody;
 }
 
+// The other pictures of the stream are queued already, since the frame came.
 void FrameEntrance::noteBegun(const AtlasJob& job) {
   const PipelineStreamPtr stream = streams_.find(job.structure->stream);
   if (!stream || !stream->door.hasWaiting()) return;
-  queuePictures(*stream);
+  queuePictures(*stream, job.picture_key);
   if (job.is_tracked) events_.ring_builds();  // see StreamDemand::takes_all
 }
 
@@ -75,12 +77,18 @@ void FrameEntrance::forget(const std::string& stream) {
 
 // Where nothing is resident, the first frame needs no picture to ask for it. Without memory for the
 // jobs, the frame is built unasked.
-void FrameEntrance::queuePictures(const PipelineStream& stream) {
+void FrameEntrance::queuePictures(const PipelineStream& stream,
+                                  std::optional<std::string> picture_key) {
   const ResidentPtr resident = stream.resident();
   if (!resident) return;
   const absl::Status status = withinMemory([&] {
-    for (AtlasJob& job :
-         jobsForWaiting(resident, broadcaster_.displays(stream.name), clock_.nowNs())) {
+    std::vector<ActiveDisplayPtr> displays = broadcaster_.displays(stream.name);
+    if (picture_key) {
+      std::erase_if(displays, [&](const ActiveDisplayPtr& display) {
+        return display->picture_key != *picture_key;
+      });
+    }
+    for (AtlasJob& job : jobsForWaiting(resident, displays, clock_.nowNs())) {
       events_.offer(std::move(job));
     }
   });

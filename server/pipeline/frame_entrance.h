@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "base/clock.h"
@@ -57,7 +58,8 @@ class FrameEntrance {
   void stop() { is_stopped_ = true; }
 
  private:
-  void queuePictures(const PipelineStream& stream);
+  // Pictures of the stream, or those of this key alone.
+  void queuePictures(const PipelineStream& stream, std::optional<std::string> picture_key = {});
   void beginAsked(const std::string& stream);
 
   StreamTable& streams_;

@@ -103,6 +103,7 @@ class FrameEntranceTest : public testing::Test {
   }
   uint64_t pictureCount() const { return picture_count_; }
   uint64_t decodedCount() const { return decoded_count_; }
+  uint64_t queuedCount() const { return queued_count_; }  // by the entrance
   uint64_t builtCount() const { return built_.size(); }
   int64_t oldestNs() const { return oldest_ns_; }
 
@@ -202,7 +203,11 @@ class FrameEntranceTest : public testing::Test {
       streams_,
       broadcaster_,
       clock_,
-      {.offer = [this](AtlasJob job) { board_.offer(std::move(job)); },
+      {.offer =
+           [this](AtlasJob job) {
+             board_.offer(std::move(job));
+             ++queued_count_;
+           },
        .finish = [this](const std::string& key) { board_.finish(key); },
        .on_finished = [] {},
        .ring_builds = [] {},
@@ -217,6 +222,7 @@ class FrameEntranceTest : public testing::Test {
   std::map<std::string, uint64_t> shown_;    // serial by picture
   uint64_t picture_count_ = 0;
   uint64_t decoded_count_ = 0;
+  uint64_t queued_count_ = 0;
   int64_t oldest_ns_ = 0;
 };
 
@@ -261,6 +267,15 @@ TEST_F(FrameEntranceTest, buildsAFrameOnceForAllPicturesThatAskForIt) {
   run(2000 * kMs_ns);
   EXPECT_EQ(unseenCount(), 0u);
   EXPECT_LE(builtCount(), pictureCount() * 6 / 10);
+}
+
+TEST_F(FrameEntranceTest, queuesPicturesOnceForEachTurn) {
+  constexpr uint32_t kPictures = 32;
+  for (uint32_t picture = 1; picture <= kPictures; ++picture) watch("stream", 16 * picture);
+  run(2000 * kMs_ns);
+  EXPECT_EQ(unseenCount(), 0u);
+  EXPECT_GT(pictureCount(), 150u);
+  EXPECT_LE(queuedCount(), 2 * (pictureCount() + kPictures));
 }
 
 TEST_F(FrameEntranceTest, goesOnAfterFramesThatDoNotDecode) {
