@@ -17,8 +17,9 @@ namespace viewloom {
 
 // A frame waits undecoded, and the pictures of its stream queue for their turns. The first whose
 // turn comes and that has nothing new to show asks for the frame. It and all others that ask
-// meanwhile begin once the frame is built. So each built frame is shown, and is as new as it can
-// be. Thread-safety: all methods may be called from any thread.
+// meanwhile begin once the frame is built. So each built frame is shown. How new it is then is the
+// publisher's matter, which is asked for fewer frames while they wait (rpc/used_rate.h).
+// Thread-safety: all methods may be called from any thread.
 class FrameEntrance {
  public:
   // Called on the threads that call the entrance.

@@ -20,9 +20,14 @@ constexpr double kRiseMax = 4;
 constexpr double kWaitedShareMax = 0.75;
 constexpr double kWaitedShareCalm = 0.25;
 constexpr size_t kTurnsMin = 3;
-constexpr int64_t kTurnsWindow_ns = 3'000'000'000;  // they may come once a second
+constexpr int64_t kTurnsWindow_ns = 3'000'000'000;
 // Then the frames that wait, also those on their way, become fewer.
 constexpr double kRelief = 0.9;
+// The least that a publisher that is held back is asked for. A waiting frame is built unasked after
+// that time (kHeldFrame_ns), and publishers that obey send no fewer.
+constexpr double kHeldBackMin_hz = 0.1;
+// A window holds that many frames of a publisher at its limit, so that its rate can be told.
+constexpr double kFramesInWindow = 2.5;
 // A moment without a single used frame does not yet tell what is used.
 constexpr double kFallMost = 0.5;
 
@@ -32,9 +37,10 @@ double rounded(double rate_hz) {
   return std::exp(std::round(std::log(rate_hz) / step) * step);
 }
 
+// Keeps the newest `count_min` whatever their age.
 template <typename Events>
-void keepSince(int64_t time_ns, Events& events) {
-  while (!events.empty() && events.front().time_ns < time_ns) events.pop_front();
+void keepSince(int64_t time_ns, size_t count_min, Events& events) {
+  while (events.size() > count_min && events.front().time_ns < time_ns) events.pop_front();
 }
 
 }  // namespace
@@ -50,11 +56,11 @@ bool UsedRate::noteTurn(int64_t waited_ns, int64_t now_ns) {
 }
 
 bool UsedRate::judge(int64_t now_ns) {
-  keepSince(now_ns - kWindow_ns, outcomes_);
-  keepSince(now_ns - kTurnsWindow_ns, turns_);
+  keepSince(now_ns - windowNs(), 0, outcomes_);
+  keepSince(now_ns - kTurnsWindow_ns, kTurnsMin, turns_);
   if (now_ns - changed_ns_ < kWindow_ns) return false;
   if (const double held_back_hz = heldBackHz(); held_back_hz > 0) {
-    return lower(std::max(held_back_hz, 1.0) * kRelief, now_ns);
+    return lower(std::max(held_back_hz * kRelief, kHeldBackMin_hz), now_ns);
   }
   if (outcomes_.empty() || (outcomes_.size() < kFramesMin && limit_hz_ == 0)) return false;
   const int64_t span_ns = now_ns - outcomes_.front().time_ns;
@@ -63,12 +69,18 @@ bool UsedRate::judge(int64_t now_ns) {
   const auto count = double(outcomes_.size());
   const double per_second = 1e9 / double(span_ns);
   if (used_count < (1 - kReplacedShareMax) * count) {
-    const double rate_hz = std::max(used_count * kHeadroom, count * kFallMost) * per_second;
-    return lower(std::max(rate_hz, kHeadroom), now_ns);
+    const double used_hz = std::max(used_count * kHeadroom, count * kFallMost) * per_second;
+    const double rate_hz = std::max(used_hz, kHeadroom);
+    return lower(limit_hz_ > 0 ? std::min(rate_hz, limit_hz_) : rate_hz, now_ns);
   }
   const bool is_calm = turns_.empty() || waitedShare() < kWaitedShareCalm;
   if (limit_hz_ > 0 && used_count == count && is_calm) return raise(count * per_second, now_ns);
   return false;
+}
+
+int64_t UsedRate::windowNs() const {
+  if (limit_hz_ == 0) return kWindow_ns;
+  return std::max(kWindow_ns, int64_t(kFramesInWindow * 1e9 / limit_hz_));
 }
 
 // Share of the time in which a frame waited for its turn. As good as all while that is not known.

@@ -10,8 +10,9 @@ namespace viewloom {
 // While all frames are used as they come, there is no limit. When some are replaced by newer ones,
 // the limit is a little more than the frames that were used, but at least half of those that came.
 // When frames wait for their turn nearly all the time, so that the publisher is held back and its
-// frames grow old, the limit is a little less than the frames that were used. It rises again while
-// neither happens, faster and faster.
+// frames grow old, the limit is a little less than the frames that were used, however rare these
+// are, but at least one frame in ten seconds. It rises again while neither happens, faster and
+// faster.
 // Thread-safety: none.
 class UsedRate {
  public:
@@ -42,6 +43,7 @@ class UsedRate {
   };
 
   bool judge(int64_t now_ns);
+  int64_t windowNs() const;
   double waitedShare() const;  // of turns_, of which there are some
   double heldBackHz() const;
   bool lower(double rate_hz, int64_t now_ns);

@@ -136,6 +136,33 @@ TEST(UsedRate, isAboutOneWhereAFrameASecondIsTaken) {
   EXPECT_NEAR(publisher.rate().limitHz(), 1, 0.3);
 }
 
+// Turns so rare that no three of them come within seconds.
+TEST(UsedRate, keepsFramesFreshWhereTurnsAreRare) {
+  constexpr double kTurns_hz = 0.25;
+  HeldBack publisher;
+  publisher.run(10, kTurns_hz, 60);
+  EXPECT_NEAR(publisher.rate().limitHz(), kTurns_hz, 0.1);
+  publisher.oldestNs();
+  publisher.takenCount();
+  publisher.run(10, kTurns_hz, 240);
+  EXPECT_LT(publisher.oldestNs(), 5 * kSecond_ns) << "a turn is 4 s";
+  EXPECT_GE(publisher.takenCount(), 0.8 * kTurns_hz * 240) << "and the server is used";
+}
+
+TEST(UsedRate, goesWhenRareTurnsComeSooner) {
+  HeldBack publisher;
+  publisher.run(10, 0.15, 60);
+  EXPECT_GT(publisher.rate().limitHz(), 0);
+  publisher.run(10, 1000, 60);
+  EXPECT_EQ(publisher.rate().limitHz(), 0);
+}
+
+TEST(UsedRate, asksForAFrameInTenSecondsAtLeast) {
+  HeldBack publisher;
+  publisher.run(10, 0.02, 600);
+  EXPECT_NEAR(publisher.rate().limitHz(), 0.1, 0.01);
+}
+
 TEST(UsedRate, leavesPublishersAloneWhoseFramesWaitForAWhile) {
   HeldBack publisher;
   publisher.run(10, 11, 30);
