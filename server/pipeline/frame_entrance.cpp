@@ -14,15 +14,21 @@ bool FrameEntrance::wantsFrame(const std::string& name) {
   const PipelineStreamPtr stream = streams_.open(name);
   FrameDoor::Answer answer = stream->door.knock();
   if (answer == FrameDoor::Answer::kFirst) {
-    if (events_.takes_unasked(*stream)) {
+    if (takesUnasked(*stream)) {
       stream->door.open();
       answer = stream->door.knock();
     } else {
-      queuePictures(*stream);
       events_.ring_builds();  // in the end it is built unasked
+      queuePictures(*stream);
     }
   }
   return answer == FrameDoor::Answer::kComeIn;
+}
+
+// False where there is no memory to know it: the builders look again.
+bool FrameEntrance::takesUnasked(const PipelineStream& stream) const {
+  bool takes = false;
+  return withinMemory([&] { takes = events_.takes_unasked(stream); }).ok() && takes;
 }
 
 void FrameEntrance::noteLost(const std::string& name) {

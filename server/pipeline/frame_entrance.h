@@ -59,6 +59,7 @@ class FrameEntrance {
   void stop() { is_stopped_ = true; }
 
  private:
+  bool takesUnasked(const PipelineStream& stream) const;
   // Pictures of the stream, or those of this key alone.
   void queuePictures(const PipelineStream& stream, std::optional<std::string> picture_key = {});
   void beginAsked(const std::string& stream);

@@ -7,12 +7,14 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <new>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "base/str_cat.h"
 #include "schedule/job_board.h"
+#include "unit/pipeline/no_engine.h"
 
 namespace viewloom::frame_entrance_test {
 namespace {
@@ -21,28 +23,6 @@ constexpr int64_t kMs_ns = 1'000'000;
 constexpr int64_t kDecode_ns = kMs_ns / 10;
 constexpr int64_t kBuild_ns = 2 * kMs_ns;
 constexpr int64_t kTrace_ns = 8 * kMs_ns;
-
-// Takes all frames, and is never asked for more.
-class NoEngine final : public Engine {
- public:
-  TraceMethod method() const override { return TraceMethod::kSweep; }
-  void connect(EngineEvents) override {}
-  bool takes(const Frame&) const override { return true; }
-  uint64_t preparedBytes(const FrameFormat&) const override { return 0; }
-  std::unique_ptr<FramePreparer> preparer() override { return nullptr; }
-  PlanPtr plan(const PicturePtr&, const PreparedFrame&) const override { return nullptr; }
-  bool isReady(const AtlasOrder&, std::function<void()>) override { return true; }
-  bool hasRoomForEyes(const std::string&) override { return true; }
-  std::unique_ptr<Making> begin(AtlasOrder, HandOn) override { return nullptr; }
-  bool workAhead() override { return false; }
-  void drain() override {}
-};
-
-Engines noEngines() {
-  Engines engines;
-  engines.all.push_back(std::make_unique<NoEngine>());
-  return engines;
-}
 
 class Viewer final : public Subscriber {
  public:
@@ -106,9 +86,13 @@ class FrameEntranceTest : public testing::Test {
   uint64_t queuedCount() const { return queued_count_; }  // by the entrance
   uint64_t builtCount() const { return built_.size(); }
   int64_t oldestNs() const { return oldest_ns_; }
+  uint64_t ringCount() const { return ring_count_; }  // of the builders
+  bool knock(const std::string& name) { return entrance_.wantsFrame(name); }
+  bool letIn(const std::string& name) { return entrance_.letIn(*streams_.open(name)); }
 
   ManualClock clock_;
-  bool takes_all_ = false;  // a server that builds each frame when it comes
+  bool takes_all_ = false;     // a server that builds each frame when it comes
+  bool lacks_memory_ = false;  // to know whether a frame is built unasked
 
  private:
   void send() {
@@ -190,13 +174,14 @@ class FrameEntranceTest : public testing::Test {
   }
 
   bool takesUnasked(const PipelineStream& stream) const {
+    if (lacks_memory_) throw std::bad_alloc();
     const StreamDemand demand{.is_watched = true, .takes_all = takes_all_};
     return !stream.turn.waitUntilNs(demand, clock_.nowNs());
   }
 
   FairShares shares_;
   JobBoard board_{clock_, shares_, 1};
-  const Engines engines_ = noEngines();
+  const Engines engines_ = test::noEngines();
   Broadcaster broadcaster_{{}};
   StreamTable streams_{engines_, unboundedMemory(), 2, [] {}};
   FrameEntrance entrance_{
@@ -210,7 +195,7 @@ class FrameEntranceTest : public testing::Test {
            },
        .finish = [this](const std::string& key) { board_.finish(key); },
        .on_finished = [] {},
-       .ring_builds = [] {},
+       .ring_builds = [this] { ++ring_count_; },
        .takes_unasked = [this](const PipelineStream& stream) { return takesUnasked(stream); }}};
   std::map<std::string, Stream> streams_by_name_;
   std::vector<std::unique_ptr<Broadcaster::Subscription>> viewers_;
@@ -223,6 +208,7 @@ class FrameEntranceTest : public testing::Test {
   uint64_t picture_count_ = 0;
   uint64_t decoded_count_ = 0;
   uint64_t queued_count_ = 0;
+  uint64_t ring_count_ = 0;
   int64_t oldest_ns_ = 0;
 };
 
@@ -276,6 +262,14 @@ TEST_F(FrameEntranceTest, queuesPicturesOnceForEachTurn) {
   EXPECT_EQ(unseenCount(), 0u);
   EXPECT_GT(pictureCount(), 150u);
   EXPECT_LE(queuedCount(), 2 * (pictureCount() + kPictures));
+}
+
+TEST_F(FrameEntranceTest, hasBuildersLookWhereNoMemoryTellsWhetherAFrameComesIn) {
+  lacks_memory_ = true;
+  EXPECT_FALSE(knock("stream"));
+  EXPECT_EQ(ringCount(), 1u);
+  EXPECT_TRUE(letIn("stream"));
+  EXPECT_TRUE(knock("stream"));
 }
 
 TEST_F(FrameEntranceTest, goesOnAfterFramesThatDoNotDecode) {
