@@ -2,6 +2,7 @@
 #include "decode/frame_intake.h"
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <deque>
 #include <memory>
@@ -17,54 +18,18 @@
 #include "admission/request_boundary.h"
 #include "base/latest_mailbox.h"
 #include "base/log.h"
+#include "base/rare_log.h"
 #include "base/thread_name.h"
+#include "base/thread_time.h"
 #include "decode/frame_decoder.h"
+#include "decode/open_frame.h"
 
 namespace viewloom {
 namespace {
 
-struct WaitingFrame {
-  CollectedFrame collected;
-  FrameTimes times;
-  ReportFrame report;
-  std::function<void()> on_taken;
-};
-
-// Frames of more px than this take longer than others should wait.
-constexpr uint64_t kLargeFrame_px = uint64_t{1} << 20;
-
-bool isLarge(const FrameFormat& format) {
-  uint64_t px_count = 0;
-  for (const SourceFormat& source : format.sources) {
-    for (const LayerFormat& layer : source.layers) {
-      px_count += std::max(layer.depth.size_px.area(), layer.color.size_px.area());
-    }
-  }
-  return px_count > kLargeFrame_px;
-}
-
-// A frame in the hands of the threads. Each plane is decoded by whoever claims it; what decoded[i]
-// holds is seen by the thread that ends the last plane.
-struct OpenFrame {
-  // Memory may run out here, so that the frame follows by begin().
-  OpenFrame(const std::string& name, const FrameFormat& format)
-      : stream(name),
-        planes(wirePlanes(format)),
-        decoded(planes.size()),
-        is_large(isLarge(format)),
-        unfinished_count(planes.size()) {}
-
-  // Formats of planes stay where they are when their frame is moved.
-  void begin(WaitingFrame waiting) { frame = std::move(waiting); }
-
-  const std::string stream;
-  WaitingFrame frame;
-  const std::vector<const PlaneFormat*> planes;
-  DecodedPlanes decoded;
-  const bool is_large;
-  size_t claimed_count = 0;  // guarded by the intake's mutex, as the next
-  size_t unfinished_count;
-};
+// A thread whose work was ended by an exception tries again after it: memory comes back with time.
+constexpr std::chrono::milliseconds kRetryPause{50};
+constexpr std::chrono::seconds kLogPause{1};
 
 void reportRefused(const ReportFrame& report, uint64_t number, const absl::Status& status) {
   report({.number = number,
@@ -99,6 +64,7 @@ struct FrameIntake::State {
   size_t large_count = 0;      // planes of large frames in the hands of threads
   size_t large_count_max = 1;  // threads that may have them
   bool closed = false;
+  RareLog rare_log{kLogPause};
   std::vector<std::jthread> threads;  // last: they use what is above
 
   // An exception beside the frames themselves costs a stream its turn.
@@ -108,11 +74,27 @@ struct FrameIntake::State {
         decodeUntilClosed(decoder);
         is_open = false;
       } catch (const std::bad_alloc&) {
-        log(LogLevel::kWarning, "no memory is left to decode; trying again");
+        noteNoMemory();
+        pause();
       } catch (const std::exception& thrown) {
         noteThrown("decoding", thrown);
+        pause();
       }
     }
+  }
+
+  void noteNoMemory() noexcept {
+    try {
+      const auto line = rare_log.take("no memory is left to decode; trying again", wallTimeNs());
+      if (line) log(LogLevel::kWarning, *line);
+    } catch (const std::exception&) {
+      // No memory to say it.
+    }
+  }
+
+  void pause() {
+    std::unique_lock lock(mutex);
+    work.wait_for(lock, kRetryPause, [this] { return closed; });
   }
 
   void decodeUntilClosed(PlaneDecoder& decoder) {

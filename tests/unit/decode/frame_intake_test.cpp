@@ -5,105 +5,22 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
+#include <chrono>
 #include <map>
-#include <mutex>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "unit/decode/held_sink.h"
+
 namespace viewloom::frame_intake_test {
 namespace {
 
-// A frame of one pixel. Depth that claims to be zstd is refused when it is decoded.
-CollectedFrame onePixel(uint64_t number, bool broken = false) {
-  LayerFormat layer{.color = {.size_px = {1, 1}, .wire_bytes = 4},
-                    .depth = {.kind = PlaneKind::kDepth,
-                              .encoding = PlaneEncoding::kDepthU16,
-                              .size_px = {1, 1},
-                              .wire_bytes = 2}};
-  if (broken) layer.depth.compression = PlaneCompression::kZstd;
-  CollectedFrame frame{.format = {.number = number, .sources = {{.layers = {layer}}}},
-                       .planes = {}};
-  frame.planes = {std::make_shared<const std::vector<uint8_t>>(4, uint8_t{1}),
-                  std::make_shared<const std::vector<uint8_t>>(2, uint8_t{1})};
-  return frame;
-}
-
-// Keeps what it is offered; can hold up whoever offers.
-class HeldSink : public FrameSink {
- public:
-  void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override {
-    std::unique_lock lock(mutex_);
-    offered_[origin.stream].push_back(frame->format.number);
-    newest_ = frame;
-    ++offered_count_;
-    changed_.notify_all();
-    changed_.wait(lock, [this] { return !held_; });
-    lock.unlock();
-    report({.number = frame->format.number, .outcome = FrameOutcome::kTraced});
-  }
-  void forgetStream(const std::string&) override {}
-
-  void hold() {
-    std::lock_guard lock(mutex_);
-    held_ = true;
-  }
-  void letGo() {
-    std::lock_guard lock(mutex_);
-    held_ = false;
-    changed_.notify_all();
-  }
-  void waitForOffer() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [this] { return offered_count_ > 0; });
-  }
-  std::vector<uint64_t> offered(const std::string& stream) {
-    std::lock_guard lock(mutex_);
-    return offered_[stream];
-  }
-  FramePtr newest() {
-    std::lock_guard lock(mutex_);
-    return newest_;
-  }
-
- private:
-  std::mutex mutex_;
-  std::condition_variable changed_;
-  std::map<std::string, std::vector<uint64_t>> offered_;
-  FramePtr newest_;
-  int offered_count_ = 0;
-  bool held_ = false;
-};
-
-// All reports of a test, by stream.
-class Reports {
- public:
-  ReportFrame into(const std::string& stream) {
-    return [this, stream](const FrameReport& report) {
-      std::lock_guard lock(mutex_);
-      reports_[stream].push_back(report);
-    };
-  }
-  // Number to outcome; a frame reported twice fails the test.
-  std::map<uint64_t, FrameOutcome> outcomes(const std::string& stream) {
-    std::lock_guard lock(mutex_);
-    std::map<uint64_t, FrameOutcome> outcomes;
-    for (const FrameReport& report : reports_[stream]) {
-      EXPECT_TRUE(outcomes.emplace(report.number, report.outcome).second) << report.number;
-    }
-    return outcomes;
-  }
-  std::string reason(const std::string& stream) {
-    std::lock_guard lock(mutex_);
-    return reports_[stream].front().reason;
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::string, std::vector<FrameReport>> reports_;
-};
+using test::HeldSink;
+using test::onePixel;
+using test::Reports;
 
 class FrameIntakeTest : public testing::Test {
  protected:
@@ -168,6 +85,44 @@ TEST(FrameIntake, dropsTheFrameThatWaitsOfAStreamThatIsForgotten) {
   EXPECT_TRUE(sink.offered("a").empty());
   EXPECT_EQ(sink.offered("b"), std::vector<uint64_t>{2});
   EXPECT_TRUE(intake.forget("never seen"));
+}
+
+// Has no memory to know whether it wants a frame.
+class ScarceSink : public HeldSink {
+ public:
+  bool wantsFrame(const std::string&) override {
+    ++asked_count;
+    if (is_scarce) throw std::bad_alloc();
+    return true;
+  }
+  std::atomic<bool> is_scarce = true;
+  std::atomic<int> asked_count = 0;
+};
+
+TEST(FrameIntake, asksNowAndThenWhereThereIsNoMemory) {
+  ScarceSink sink;
+  Reports reports;
+  ManualClock clock;
+  BytePool pool(16);
+  FrameIntake intake(sink, clock, pool, {.thread_count = 1});
+  intake.offer("a", onePixel(1), {}, reports.into("a"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  EXPECT_LE(sink.asked_count, 10);
+  sink.is_scarce = false;
+  while (sink.offered("a").empty()) std::this_thread::yield();
+  intake.close();
+}
+
+TEST(FrameIntake, isClosedWhereThereIsNoMemory) {
+  ScarceSink sink;
+  Reports reports;
+  ManualClock clock;
+  BytePool pool(16);
+  FrameIntake intake(sink, clock, pool, {.thread_count = 1});
+  intake.offer("a", onePixel(1), {}, reports.into("a"));
+  while (sink.asked_count == 0) std::this_thread::yield();
+  intake.close();
+  EXPECT_EQ(sink.offered("a"), std::vector<uint64_t>{1});
 }
 
 TEST_F(FrameIntakeTest, forgetsNoStreamOfWhichAFrameIsHandedOver) {
