@@ -20,8 +20,8 @@ uint32_t rowsOfStrip(const EncodeTask& task) {
   return batch.run->strips.rowsOf(batch.work->shape.first_strip + task.index).row_count;
 }
 
-uint64_t packedPx(const EncodeTask& task) {
-  return uint64_t{task.batch->run->picture->layout->size_px.width} * task.rows.row_count;
+uint64_t packedPx(const AtlasRun& run, uint32_t row_count) {
+  return uint64_t{run.picture->layout->size_px.width} * row_count;
 }
 
 }  // namespace
@@ -124,7 +124,7 @@ int64_t EncodeQueue::predictPackNs(const EncodeTask& task, uint32_t row_count) c
   const AtlasRun& run = *task.batch->run;
   const PackedPlane& packed = run.packs[task.pack];
   return pack_costs_.predictNs(run.outputs[packed.output].display->encoding, packed.plane,
-                               uint64_t{run.picture->layout->size_px.width} * row_count);
+                               packedPx(run, row_count));
 }
 
 // Those that hold them do not wait for the last of their work.
@@ -154,8 +154,8 @@ void EncodeQueue::noteServed(const EncodeTask& task, int64_t duration_ns) {
     return;
   }
   const PackedPlane& packed = run.packs[task.pack];
-  pack_costs_.note(run.outputs[packed.output].display->encoding, packed.plane, packedPx(task),
-                   duration_ns);
+  pack_costs_.note(run.outputs[packed.output].display->encoding, packed.plane,
+                   packedPx(run, task.rows.row_count), duration_ns);
 }
 
 void EncodeQueue::close() {
