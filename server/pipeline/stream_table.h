@@ -28,8 +28,8 @@ namespace viewloom {
 inline constexpr uint32_t kHeldByFurtherEngine = 2;
 
 // Thread-safety: inbox, door, slots, the claim, newest(), setNewest() and setMotion() from any
-// thread;
-// the other fields are the structure loop's, which has one thread at a time work on a stream.
+// thread; the other fields are the structure loop's, which has one thread at a time work on a
+// stream.
 class PipelineStream {
  public:
   PipelineStream(std::string stream_name, const Engines& engines, uint32_t least_slot_count,
