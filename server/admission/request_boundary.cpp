@@ -37,12 +37,18 @@ void noteThrown(std::string_view work, const std::exception& thrown) noexcept {
   }
 }
 
-absl::Status refusalFor(const std::exception& thrown) {
-  if (isLackOfMemory(thrown)) return outOfMemory();
-  noteThrown("a request", thrown);
-  return absl::InternalError(
-      "the server failed while it answered this request; other requests are answered. Its log says "
-      "why: tell its operator");
+absl::Status refusalFor(const std::exception& thrown) noexcept {
+  const bool lacks_memory = isLackOfMemory(thrown);
+  try {
+    if (lacks_memory) return outOfMemory();
+    noteThrown("a request", thrown);
+    return absl::InternalError(
+        "the server failed while it answered this request; other requests are answered. Its log "
+        "says why: tell its operator");
+  } catch (const std::exception&) {
+    // A status without a message takes no memory.
+    return {lacks_memory ? absl::StatusCode::kResourceExhausted : absl::StatusCode::kInternal, {}};
+  }
 }
 
 }  // namespace viewloom

@@ -15,8 +15,9 @@ namespace viewloom {
 void noteThrown(std::string_view work, const std::exception& thrown) noexcept;
 
 // The status of a request out of which an exception came: outOfMemory() for std::bad_alloc, else
-// INTERNAL, and the log says why. The client does not hear what the exception said.
-absl::Status refusalFor(const std::exception& thrown);
+// INTERNAL, and the log says why. The client does not hear what the exception said. Without memory
+// for a message it has none.
+absl::Status refusalFor(const std::exception& thrown) noexcept;
 
 // The result of the call, an absl::Status or absl::StatusOr; refusalFor() the exception that leaves
 // it.

@@ -10,24 +10,41 @@
 
 namespace viewloom {
 
+namespace {
+
+// Where there is no memory for the whole status, its code is told with a message that needs none.
+grpc::Status grpcStatus(const absl::Status& status) noexcept {
+  try {
+    return statusToGrpc(status);
+  } catch (const std::exception&) {
+    return {static_cast<grpc::StatusCode>(status.code()), "out of memory"};
+  }
+}
+
+}  // namespace
+
 void BidiCall::setContext(const grpc::CallbackServerContext& context) {
   std::lock_guard lock(context_mutex_);
   context_ = &context;
 }
 
 void BidiCall::open() {
-  self_ = shared_from_this();
   std::lock_guard lock(mutex_);
+  self_ = shared_from_this();  // nothing is thrown from here on: gRPC would never call OnDone()
   opened_ = true;
   advance();
 }
 
 void BidiCall::end(const absl::Status& status) {
+  endWith(grpcStatus(status));
+}
+
+void BidiCall::endWith(grpc::Status status) {
   bool handling = false;
   {
     std::lock_guard lock(mutex_);
     if (end_status_.has_value()) return;
-    end_status_ = statusToGrpc(status);
+    end_status_ = std::move(status);
     handling = handling_;
   }
   letGo();
@@ -101,7 +118,7 @@ void BidiCall::OnCancel() {
     std::lock_guard lock(mutex_);
     cancelled_ = true;
   }
-  end(absl::CancelledError("the call was cancelled"));
+  endWith({grpc::StatusCode::CANCELLED, "cancelled"});  // so short that it takes no memory
   std::lock_guard lock(mutex_);
   advance();
 }
@@ -133,7 +150,7 @@ std::optional<grpc::ByteBuffer> BidiCall::nextMessage() {
     return takeMessage();
   } catch (const std::exception& thrown) {
     releases_when_done_ = !end_status_.has_value();
-    if (releases_when_done_) end_status_ = statusToGrpc(refusalFor(thrown));
+    if (releases_when_done_) end_status_ = grpcStatus(refusalFor(thrown));
     return std::nullopt;
   }
 }
@@ -156,7 +173,7 @@ void BidiCall::advance() {
     StartRead(&incoming_);
   } else if (!writing_ && !handling_ && (cancelled_ || mayFinish())) {
     finished_ = true;
-    Finish(*end_status_);
+    Finish(*std::exchange(end_status_, grpc::Status()));
   }
 }
 

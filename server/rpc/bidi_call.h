@@ -67,7 +67,7 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
   virtual bool mayFinish() const { return true; }
 
   // Writes, reads or finishes if there is reason to. A call whose message cannot be made ends
-  // with RESOURCE_EXHAUSTED for want of memory, else with INTERNAL. With the lock.
+  // with RESOURCE_EXHAUSTED for want of memory, else with INTERNAL. Never throws. With the lock.
   void advance();
   bool ending() const { return end_status_.has_value(); }
   bool halfClosed() const { return half_closed_; }
@@ -75,6 +75,8 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
   std::mutex mutex_;
 
  private:
+  // Never throws.
+  void endWith(grpc::Status status);
   void handle(bool ok);
   // Ends a call whose message was refused.
   void refuse(const absl::Status& status, std::chrono::steady_clock::time_point begun);
