@@ -205,12 +205,16 @@ bool PictureLoop::waitsForNewer(const AtlasJob& job,
   return is_watched && asksForNewer(job) && desk_.ask_newer(job.structure->stream, job.picture_key);
 }
 
+// Frames come while kernels compile: then the picture begins with the newest.
 bool PictureLoop::isReady(const AtlasRun& run) {
-  return engine_.isReady(orderOf(run, rank_),
-                         [&board = desk_.board, &wake_up = wake_up_, key = run.job.picture_key] {
-                           board.finish(key);
-                           wake_up.ring();
-                         });
+  return engine_.isReady(
+      orderOf(run, rank_), [this, key = run.job.picture_key, stream = run.job.structure->stream,
+                            asks = asksForNewer(run.job)] {
+        bool comes = false;
+        withinMemory([&] { comes = asks && desk_.ask_newer(stream, key); }).IgnoreError();
+        if (!comes) desk_.board.finish(key);
+        wake_up_.ring();
+      });
 }
 
 void PictureLoop::putBack(AtlasJob job) {

@@ -96,6 +96,24 @@ TEST_F(PipelineCompileTest, aPictureThatWaitsForItsKernelsKeepsNoOtherFromItsFra
   EXPECT_EQ(late.front()->frame_number, kLast) << "it waited with a frame that was no news";
 }
 
+TEST_F(PipelineCompileTest, aPictureBeginsWithTheFrameThatCameWhileItsKernelsCompiled) {
+  Server server(device(), ownThreads());
+  const FramePtr first = syntheticFrame(1);
+  {
+    const Viewer quick = watch(server, smallQuilt({128, 80}));
+    server.offer(first);
+    ASSERT_THAT(quick.subscriber->waitForAtlases(1), SizeIs(1));
+  }
+  compiler_.hold();
+  const Viewer slow = watch(server, lensQuilt());
+  compiler_.waitUntilAsked();
+  server.offer(movedFrame(*first, 2));
+  compiler_.release();
+  const std::vector<AtlasPtr> late = slow.subscriber->waitForAtlases(1);
+  ASSERT_THAT(late, Not(IsEmpty()));
+  EXPECT_EQ(late.front()->frame_number, 2u) << "the one before was older";
+}
+
 TEST_F(PipelineCompileTest, picturesAreThoseOfKernelsThatTheRecordingThreadCompiles) {
   Server here(device());
   Server apart(device(), ownThreads());
