@@ -17,8 +17,8 @@ namespace viewloom {
 
 // A frame waits undecoded, and the pictures of its stream queue for their turns. The first whose
 // turn comes and that has nothing new to show asks for the frame. It and all others that ask
-// meanwhile begin once the frame is built. So each built frame is shown. How new it is then is the
-// publisher's matter, which is asked for fewer frames while they wait (rpc/used_rate.h).
+// meanwhile begin once the frame is built. So each built frame is shown. Newer ones replace a frame
+// that waits for long (rpc/held_back.h), and fewer are asked for (rpc/used_rate.h).
 // Thread-safety: all methods may be called from any thread.
 class FrameEntrance {
  public:

@@ -4,7 +4,6 @@
 #include <utility>
 #include <vector>
 
-#include "admission/request_boundary.h"
 #include "base/str_cat.h"
 #include "messages/wire_message.h"
 #include "rpc/frame_from_proto.h"
@@ -28,21 +27,7 @@ absl::Status refuseFirst(const char* message) {
                       strCat("the first message is a ", message, "; accepted first is settings"));
 }
 
-void countOutcome(const IngestParts& parts, const std::string& stream, FrameOutcome outcome) {
-  parts.directory.countReported(stream, outcome);
-  if (outcome == FrameOutcome::kRefused) parts.metrics.frames_refused.add();
-}
-
 }  // namespace
-
-template <typename Act>
-void PublishCall::actOrEnd(const Act& act) {
-  const absl::Status status = unlessThrown([&] {
-    act();
-    return absl::OkStatus();
-  });
-  if (!status.ok()) end(status);
-}
 
 absl::Status PublishCall::handleMessage(grpc::ByteBuffer& bytes) {
   {
@@ -112,7 +97,7 @@ absl::Status PublishCall::handleHeader(const v1::FrameHeader& header) {
   if (assembly_.has_value()) VIEWLOOM_RETURN_IF_ERROR(assembly_->requireComplete());
   auto format = frameFormatFromProto(header, parts_.limits);
   if (!format.ok()) {
-    countOutcome(parts_, stream_, FrameOutcome::kRefused);
+    parts_.countOutcome(stream_, FrameOutcome::kRefused);
     return format.status();
   }
   if (format->number <= last_number_) {
@@ -123,7 +108,7 @@ absl::Status PublishCall::handleHeader(const v1::FrameHeader& header) {
   assembly_.reset();
   absl::StatusOr<Reservation> memory = admit(*format);
   if (!memory.ok()) {
-    countOutcome(parts_, stream_, FrameOutcome::kRefused);
+    parts_.countOutcome(stream_, FrameOutcome::kRefused);
     return memory.status();
   }
   last_number_ = format->number;
@@ -163,58 +148,6 @@ absl::Status PublishCall::noteChunk(uint64_t data_bytes) {
   return absl::OkStatus();
 }
 
-void PublishCall::offerFrame() {
-  {
-    std::lock_guard lock(mutex_);
-    if (ending()) return;
-    ++unreported_count_;
-    waits_since_ns_ = times_.last_chunk_ns;
-  }
-  parts_.directory.countReceived(stream_);
-  parts_.metrics.frames_received.add();
-  CollectedFrame frame = assembly_->take();
-  frame.session = session_;
-  frame.publisher = identity_;
-  // A frame outlives its call; its outcome is counted all the same.
-  parts_.intake.offer(
-      stream_, std::move(frame), times_,
-      [weak = weak_from_this(), parts = parts_, stream = stream_](const FrameReport& report) {
-        countOutcome(parts, stream, report.outcome);
-        const auto call = std::static_pointer_cast<PublishCall>(weak.lock());
-        if (call) call->actOrEnd([&] { call->onReport(report); });
-      },
-      [weak = weak_from_this()] {
-        const auto call = std::static_pointer_cast<PublishCall>(weak.lock());
-        if (call) call->actOrEnd([&] { call->onTaken(); });
-      });
-}
-
-void PublishCall::onTaken() {
-  bool has_new_rate = false;
-  {
-    std::lock_guard lock(mutex_);
-    const int64_t now_ns = parts_.clock.nowNs();
-    const int64_t waited_ns = now_ns - std::exchange(waits_since_ns_, {}).value_or(now_ns);
-    advance();
-    has_new_rate = wanted_.noteTurn(waited_ns, now_ns);
-  }
-  if (has_new_rate) refreshWanted();
-}
-
-void PublishCall::onReport(const FrameReport& report) {
-  bool has_new_rate = false;
-  {
-    std::lock_guard lock(mutex_);
-    --unreported_count_;
-    v1::PublishFramesResponse response;
-    *response.mutable_report() = reportToProto(report);
-    replies_.push_back(bytesFromMessage(response));
-    advance();
-    has_new_rate = wanted_.note(report.outcome, parts_.clock.nowNs());
-  }
-  if (has_new_rate || report.outcome == FrameOutcome::kTraced) refreshWanted();
-}
-
 absl::Status PublishCall::handleHalfClose() {
   if (stream_.empty())
     return invalidField(
@@ -230,12 +163,6 @@ absl::Status PublishCall::handleHalfClose() {
 
 void PublishCall::dropReads() {
   assembly_.reset();
-}
-
-void PublishCall::release() {
-  PublishPlace left;
-  std::lock_guard lock(mutex_);
-  left = std::exchange(place_, {});
 }
 
 std::optional<grpc::ByteBuffer> PublishCall::takeMessage() {
@@ -260,7 +187,9 @@ void PublishCall::tick() {
   if (const absl::Status status = caller_.tick(); !status.ok()) end(status);
   {
     std::lock_guard lock(mutex_);
-    if (!has_heartbeats_ || ending()) return;
+    if (ending()) return;
+    advance();  // it may be held back no longer
+    if (!has_heartbeats_) return;
     if (told_.reaches(kHeartbeatTicks)) {
       heartbeat_is_due_ = true;
       advance();
@@ -273,9 +202,9 @@ void PublishCall::tick() {
                                     "go on publishing")));
 }
 
-// A frame that would only replace one that waits is not received.
 bool PublishCall::wantsToRead() const {
-  return !waits_since_ns_ && unreported_count_ + replies_.size() < kOpenReportsMax;
+  return !held_back_.holds(parts_.clock.nowNs()) &&
+         unreported_count_ + replies_.size() < kOpenReportsMax;
 }
 
 std::string PublishCall::stream() {

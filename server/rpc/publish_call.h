@@ -20,6 +20,7 @@
 #include "publish/stream_directory.h"
 #include "rpc/bidi_call.h"
 #include "rpc/call_access.h"
+#include "rpc/held_back.h"
 #include "rpc/liveness.h"
 #include "rpc/publish_place.h"
 #include "rpc/wanted_message.h"
@@ -39,6 +40,8 @@ struct IngestParts {
   FrameLimits limits;
   MemoryBudget& memory = unboundedMemory();
   PreparedBytes prepared_bytes = [](const FrameFormat&) { return uint64_t{0}; };
+
+  void countOutcome(const std::string& stream, FrameOutcome outcome) const;
 };
 
 // However it ends, the stream's name is free at once, and the reports of the frames taken before
@@ -82,7 +85,7 @@ class PublishCall final : public BidiCall {
   template <typename Act>
   void actOrEnd(const Act& act);
   void onReport(const FrameReport& report);
-  void onTaken();
+  void onTaken(uint64_t number);
 
   const IngestParts parts_;
   const std::string host_;
@@ -101,8 +104,7 @@ class PublishCall final : public BidiCall {
   PublishPlace place_;
   std::deque<grpc::ByteBuffer> replies_;  // accepted, then reports
   size_t unreported_count_ = 0;           // frames taken whose report has not come
-  // Since when a frame has waited to be decoded; meanwhile no other is read.
-  std::optional<int64_t> waits_since_ns_;
+  HeldBack held_back_;
   WantedMessage wanted_;
   bool has_heartbeats_ = false;  // the publisher sends them, and gets them
   bool heartbeat_is_due_ = false;
