@@ -86,6 +86,8 @@ class PublishCall final : public BidiCall {
   void actOrEnd(const Act& act);
   void onReport(const FrameReport& report);
   void onTaken(uint64_t number);
+  // A frame was offered: leaves the place if the call has begun to end meanwhile.
+  void leaveIfEnded();
 
   const IngestParts parts_;
   const std::string host_;
@@ -105,6 +107,7 @@ class PublishCall final : public BidiCall {
   std::deque<grpc::ByteBuffer> replies_;  // accepted, then reports
   size_t unreported_count_ = 0;           // frames taken whose report has not come
   HeldBack held_back_;
+  bool is_offering_ = false;
   WantedMessage wanted_;
   bool has_heartbeats_ = false;  // the publisher sends them, and gets them
   bool heartbeat_is_due_ = false;

@@ -3,6 +3,8 @@
 #include <optional>
 #include <utility>
 
+#include <absl/cleanup/cleanup.h>
+
 #include "admission/request_boundary.h"
 #include "messages/wire_message.h"
 #include "rpc/publish_call.h"
@@ -30,7 +32,9 @@ void PublishCall::offerFrame() {
     if (ending()) return;
     ++unreported_count_;
     held_back_.noteOffered(last_number_, times_.last_chunk_ns);
+    is_offering_ = true;
   }
+  const absl::Cleanup offered = [this] { leaveIfEnded(); };
   parts_.directory.countReceived(stream_);
   parts_.metrics.frames_received.add();
   CollectedFrame frame = assembly_->take();
@@ -77,10 +81,19 @@ void PublishCall::onReport(const FrameReport& report) {
   if (has_new_rate || report.outcome == FrameOutcome::kTraced) refreshWanted();
 }
 
+// While a frame is on its way to the intake, the name stays taken: were the stream forgotten, the
+// frame would open it again.
 void PublishCall::release() {
   PublishPlace left;
   std::lock_guard lock(mutex_);
-  left = std::exchange(place_, {});
+  if (!is_offering_) left = std::exchange(place_, {});
+}
+
+void PublishCall::leaveIfEnded() {
+  PublishPlace left;
+  std::lock_guard lock(mutex_);
+  is_offering_ = false;
+  if (ending()) left = std::exchange(place_, {});
 }
 
 }  // namespace viewloom

@@ -117,5 +117,18 @@ TEST_F(PublishCallTest, readsOnWhereAFrameWaitsForLong) {
   EXPECT_EQ(receivedCount(), 3u);
 }
 
+// Were the name free before the frame waits, the stream could be forgotten between the two.
+TEST_F(PublishCallTest, keepsItsNameUntilItsFrameWaits) {
+  intake_.offer(kStream, {}, {}, [](const FrameReport&) {});
+  bool was_live = false;
+  on_replaced_ = [&] {
+    call_->end(absl::CancelledError("planted"));
+    was_live = isLive();
+  };
+  publish(1);
+  EXPECT_TRUE(was_live);
+  EXPECT_FALSE(isLive());
+}
+
 }  // namespace
 }  // namespace viewloom::publish_call_test
