@@ -28,6 +28,10 @@ constexpr double kRelief = 0.9;
 constexpr double kHeldBackMin_hz = 0.1;
 // A window holds that many frames of a publisher at its limit, so that its rate can be told.
 constexpr double kFramesInWindow = 2.5;
+// So long after a change, turns tell how much room there is. A publisher that sends fewer of the
+// frames that it may is not limited.
+constexpr int64_t kLeapAfter_ns = 500'000'000;
+constexpr double kLimitedShare = 0.8;
 // A moment without a single used frame does not yet tell what is used.
 constexpr double kFallMost = 0.5;
 
@@ -58,6 +62,7 @@ bool UsedRate::noteTurn(int64_t waited_ns, int64_t now_ns) {
 bool UsedRate::judge(int64_t now_ns) {
   keepSince(now_ns - windowNs(), 0, outcomes_);
   keepSince(now_ns - kTurnsWindow_ns, kTurnsMin, turns_);
+  if (leap(now_ns)) return true;
   if (now_ns - changed_ns_ < kWindow_ns) return false;
   if (const double held_back_hz = heldBackHz(); held_back_hz > 0) {
     return lower(std::max(held_back_hz * kRelief, kHeldBackMin_hz), now_ns);
@@ -108,6 +113,7 @@ void UsedRate::change(double limit_hz, int64_t now_ns) {
 
 bool UsedRate::lower(double rate_hz, int64_t now_ns) {
   rise_ = kRise;
+  if (has_leapt_) may_leap_ = false;
   const double before_hz = limit_hz_;
   change(rounded(rate_hz), now_ns);
   return limit_hz_ != before_hz;
@@ -118,6 +124,23 @@ bool UsedRate::raise(double received_hz, int64_t now_ns) {
   const bool is_needless = received_hz < limit_hz_ / kRise;
   change(is_needless ? 0 : rounded(limit_hz_ * rise_), now_ns);
   rise_ = is_needless ? kRise : std::min(rise_ * rise_, kRiseMax);
+  if (is_needless) may_leap_ = true;
+  return true;
+}
+
+// To so many times the frames that they would wait for the share of the time that is still calm.
+bool UsedRate::leap(int64_t now_ns) {
+  const int64_t span_ns = now_ns - changed_ns_;
+  const double span_s = 1e-9 * double(span_ns);
+  if (limit_hz_ == 0 || !may_leap_ || span_ns < kLeapAfter_ns) return false;
+  if (double(turns_.size()) < kLimitedShare * limit_hz_ * span_s) return false;
+  int64_t waited_ns = 0;
+  for (const Turn& turn : turns_) waited_ns += turn.waited_ns;
+  const double share = double(waited_ns) / double(span_ns);
+  if (share >= kWaitedShareCalm) return false;
+  has_leapt_ = true;
+  change(rounded(limit_hz_ * kWaitedShareCalm / std::max(share, kWaitedShareCalm / kRiseMax)),
+         now_ns);
   return true;
 }
 

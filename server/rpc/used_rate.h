@@ -48,6 +48,7 @@ class UsedRate {
   double heldBackHz() const;
   bool lower(double rate_hz, int64_t now_ns);
   bool raise(double received_hz, int64_t now_ns);
+  bool leap(int64_t now_ns);
   void change(double limit_hz, int64_t now_ns);
 
   // In the last while, since the limit was changed.
@@ -56,6 +57,10 @@ class UsedRate {
   double limit_hz_ = 0;
   int64_t changed_ns_ = 0;  // the limit
   double rise_ = kRise;     // factor of the next rise
+  // The limit leaps as soon as turns show room: the crowd may have gone, or kernels are compiled.
+  // If that was too much, it falls again, and rises without leaps until it has gone.
+  bool may_leap_ = true;
+  bool has_leapt_ = false;
 };
 
 }  // namespace viewloom
