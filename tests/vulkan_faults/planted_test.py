@@ -113,8 +113,8 @@ class Lying(unittest.TestCase):
         self.assertIn("vkQueueSubmit2", self.clean.counts)
 
     def test_a_wrong_picture_is_found(self):
-        last = self.clean.counts["vkCmdDispatch"]
-        self.assertIn("wrong: watched", self.lie("vkCmdDispatch", last // 2, 60))
+        # The first walk of the picture: other dispatches may have nothing to do.
+        self.assertIn("wrong: watched", self.lie("vkCmdDispatchBase", 1, 60))
 
     def test_a_server_that_hangs_is_found(self):
         said = self.lie("vkQueueSubmit2", 1, 3 * self.clean.clean_s)
