@@ -60,11 +60,12 @@ class Record:
 
 
 def source_of(root):
-    """Names the sources: the commit, and whether something was changed since."""
+    """Names the sources: the last commit that changed more than documents, and whether anything
+    else was changed since."""
     def git(*words):
-        return subprocess.run(["git", *words], cwd=root, check=True, capture_output=True,
-                              text=True).stdout.strip()
-    commit = git("rev-parse", "--short", "HEAD")
+        return subprocess.run(["git", *words, "--", ".", ":(exclude)*.md"], cwd=root, check=True,
+                              capture_output=True, text=True).stdout.strip()
+    commit = git("log", "-1", "--format=%h")
     return f"{commit}-changed" if git("status", "--porcelain") else commit
 
 

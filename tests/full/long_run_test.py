@@ -62,6 +62,30 @@ class LongRun(unittest.TestCase):
         self.assertTrue(self.run_part({"a": ["true"]}, source="later"))
         self.assertEqual(self.said, ["p: 0 of 1 steps covered before", "p: 1 of 1 steps"] * 2)
 
+    def test_documents_are_no_sources(self):
+        root = self.file.parent
+
+        def change(name):
+            root.joinpath(name).write_text(f"{name} {len(list(root.iterdir()))}")
+
+        def git(*words):
+            subprocess.run(["git", "-c", "user.name=n", "-c", "user.email=e", *words], cwd=root,
+                           check=True, capture_output=True)
+
+        def commit(name):
+            change(name)
+            git("add", name)
+            git("commit", "-m", name)
+            return long_run.source_of(root)
+        git("init")
+        first = commit("a.cpp")
+        self.assertEqual(commit("a.md"), first)
+        self.assertNotEqual(commit("b.cpp"), first)
+        change("a.md")
+        self.assertNotIn("changed", long_run.source_of(root))
+        change("a.cpp")
+        self.assertIn("changed", long_run.source_of(root))
+
     def test_a_stop_says_what_is_covered_and_the_rest_comes_later(self):
         def start(wait_s):
             return subprocess.Popen([sys.executable, "-B", "-c", STOPPED, str(self.file), wait_s],
