@@ -20,7 +20,7 @@ SeedBytes displayJsonSeeds() {
   return seedsOf({R"({"quilt": {"preset": "portrait", "size": {"width": 420, "height": 560}}})",
                   R"({"stereo": {"eyeSize": {"width": 96, "height": 64}, "tracked": true},
            "quality": "QUALITY_BEST", "outside_fill": "OUTSIDE_FILL_BACKGROUND"})",
-                  R"({"cameras": {"cameras": [{"pose": {"position": {"x": 1e-1}},
+                  R"({"cameras": {"cameras": [{"pose": {"position": {"x": 1e-1, "y": -0.0}},
            "fov": {"angleLeftRad": -0.5, "angleRightRad": 0.5,
            "angleUpRad": 0.4, "angleDownRad": -0.4}}],
            "tileSize": {"width": 8, "height": 8}}})",
