@@ -24,8 +24,9 @@ FRONT = Limits(pictures_share=0.9, longest_gap_s=0.3, memory_mib=16, cpu_s=0.3)
 FRONT_ONLY = {"rapid_reset": 640, "continuation": 1600, "header_drip": 640, "header_bomb": 256,
               "settings": 256, "ping": 256}
 FLOODED_GAP_S = 5.0
-# Attacks that keep what they send: frames of streams without a publisher, buffers of planes.
-MEMORY_KEPT = {"plane_bombs": 1024, "gzip_messages": 128}
+# Attacks that keep what they send: frames of streams without a publisher, buffers of planes. Eight
+# frames of 4096x4096 have planes of 112 MiB each, and take as much again while they are prepared.
+MEMORY_KEPT = {"plane_bombs": 8 * 2 * 112, "gzip_messages": 128}
 CPU_FRONT = {"tiny_windows": 2.0}
 
 
