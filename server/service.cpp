@@ -102,6 +102,7 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
                       std::function<void(const std::exception& error)> on_failure,
                       const std::function<std::string()>& contain)
     : connection_shares(connectionShares(config)),
+      metrics(config.access.isOpen() ? ClientNames::kHidden : ClientNames::kShown),
       access(accessOptions(config.access), clock),
       tls(watchTls(config.tls, metrics)),
       memory(memoryBudgetBytes(config.memory),

@@ -8,8 +8,11 @@
 #include <prometheus/text_serializer.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "metrics/client_seconds.h"
 
 namespace viewloom {
 namespace {
@@ -125,11 +128,16 @@ void Histogram::observe(double value) const {
 }
 
 struct Metrics::Store {
+  explicit Store(ClientNames names) {
+    if (names == ClientNames::kShown) client_seconds.emplace(registry);
+  }
+
   prometheus::Registry registry;
+  std::optional<ClientSeconds> client_seconds;
 };
 
-Metrics::Metrics()
-    : store_(std::make_unique<Store>()),
+Metrics::Metrics(ClientNames names)
+    : store_(std::make_unique<Store>(names)),
       frames_received(
           counter(store_->registry, "viewloom_frames_received_total", "Frames received whole.")),
       frames_refused(counter(store_->registry, "viewloom_frames_refused_total",
@@ -241,6 +249,7 @@ void Metrics::observePiece(EngineWork work, const std::vector<Payer>& payers,
                            const PieceTimes& times) const {
   const double seconds = static_cast<double>(times.measured_ns) * kSecondsPerNs;
   engine_seconds[classOf(payers)].add(seconds);
+  if (store_->client_seconds) store_->client_seconds->add(payers, seconds);
   piece[work].observe(seconds);
   predicted_piece[work].observe(static_cast<double>(times.predicted_ns) * kSecondsPerNs);
   if (seconds > longest_piece[work].value()) longest_piece[work].set(seconds);

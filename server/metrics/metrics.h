@@ -94,6 +94,10 @@ enum class EngineWork : uint8_t { kTrace, kPiece, kPack, kBuild, kCount };
 enum class PayerClass : uint8_t { kServer, kLocal, kRemote, kCount };
 enum class HttpAnswer : uint8_t { kSuccess, kRedirect, kClientError, kServerError, kCount };
 
+// Whether metrics name clients. Where none has to prove who it is, names are addresses, which are
+// nobody else's concern.
+enum class ClientNames : uint8_t { kHidden, kShown };
+
 struct PieceTimes {
   int64_t predicted_ns = 0;
   int64_t measured_ns = 0;
@@ -107,7 +111,7 @@ class Metrics {
   std::unique_ptr<Store> store_;  // before the handles, which point into it
 
  public:
-  Metrics();
+  explicit Metrics(ClientNames names = ClientNames::kHidden);
   ~Metrics();
 
   // Everything in Prometheus' text format.
@@ -159,7 +163,8 @@ class Metrics {
   Labelled<EngineWork, Histogram> predicted_piece;  // {work}; as predicted when they began
   Labelled<EngineWork, Gauge> longest_piece;        // {work}; since the start, seconds
 
-  // A piece of work for any of these.
+  // A piece of work for any of these. If clients are named, also their
+  // viewloom_client_engine_seconds_total{client}.
   void observePiece(EngineWork work, const std::vector<Payer>& payers,
                     const PieceTimes& times) const;
   void observeOutputDelay(int64_t duration_ns) const;

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <string>
 #include <thread>
 #include <vector>
+
+#include "base/str_cat.h"
+#include "metrics/client_seconds.h"
 
 namespace viewloom::metrics_test {
 namespace {
@@ -14,6 +18,7 @@ namespace {
 using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
+using ::testing::Not;
 using ::testing::Value;
 
 TEST(Metrics, showsWhatWasCounted) {
@@ -36,6 +41,36 @@ TEST(Metrics, timesStagesInSeconds) {
   EXPECT_THAT(text, HasSubstr("viewloom_stage_seconds_count{stage=\"trace\"} 1"));
   EXPECT_THAT(text, HasSubstr("viewloom_stage_seconds_bucket{stage=\"trace\",le=\"1\"} 0"));
   EXPECT_THAT(text, HasSubstr("viewloom_stage_seconds_bucket{stage=\"trace\",le=\"2\"} 1"));
+}
+
+TEST(Metrics, namesClientsThatProveWhoTheyAre) {
+  const Metrics metrics(ClientNames::kShown);
+  const Payer anna("anna"), bert("bert");
+  metrics.observePiece(EngineWork::kTrace, {anna, bert}, {.measured_ns = 2'000'000'000});
+  metrics.observePiece(EngineWork::kPack, {bert}, {.measured_ns = 500'000'000});
+  metrics.observePiece(EngineWork::kBuild, {Payer()}, {.measured_ns = 500'000'000});
+  const std::string text = metrics.text();
+  EXPECT_THAT(text, HasSubstr("viewloom_client_engine_seconds_total{client=\"anna\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("viewloom_client_engine_seconds_total{client=\"bert\"} 1.5\n"));
+  EXPECT_THAT(text, HasSubstr("viewloom_engine_seconds_total{payer=\"server\"} 0.5\n"));
+}
+
+TEST(Metrics, namesNobodyWhereAddressesAreNames) {
+  const Metrics metrics;
+  metrics.observePiece(EngineWork::kTrace, {Payer("192.0.2.7")}, {.measured_ns = 1'000'000});
+  EXPECT_THAT(metrics.text(), Not(HasSubstr("192.0.2.7")));
+}
+
+TEST(Metrics, namesAFewHundredClients) {
+  const Metrics metrics(ClientNames::kShown);
+  for (size_t i = 0; i < ClientSeconds::kNamedClients + 3; ++i) {
+    metrics.observePiece(EngineWork::kTrace, {Payer(strCat("client-", i))},
+                         {.measured_ns = 1'000'000'000});
+  }
+  const std::string text = metrics.text();
+  EXPECT_THAT(text, HasSubstr("{client=\"client-255\"} 1\n"));
+  EXPECT_THAT(text, Not(HasSubstr("client-256")));
+  EXPECT_THAT(text, HasSubstr("{client=\"others\"} 3\n"));
 }
 
 // The grammar of Prometheus' text format 0.0.4, written out independently of the serialiser.
