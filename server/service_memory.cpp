@@ -146,6 +146,7 @@ ServiceMemory::ServiceMemory(MemoryBudget& budget, StreamDirectory& directory,
   unused_.emplace(budget, [this, &budget, &metrics] {
     unpriced_.note(ownResidentBytes());
     note(metrics, budget);
+    return unpriced_.bytes();
   });
 }
 

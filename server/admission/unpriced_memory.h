@@ -18,6 +18,9 @@ class UnpricedMemory {
   // To be called now and then, with the bytes of this process that lie in memory.
   void note(uint64_t resident_bytes);
 
+  // Charged to the budget for it.
+  uint64_t bytes() const { return charged_.bytes(); }
+
  private:
   MemoryBudget& budget_;
   Reservation charged_;

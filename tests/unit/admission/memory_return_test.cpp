@@ -29,6 +29,29 @@ TEST(HeapWatch, leavesTheHeapToStreamsWhoseFramesComeAndGo) {
     EXPECT_FALSE(heap.note({.used_bytes = i % 2 == 0 ? 100 * kMiB : 10 * kMiB}));
 }
 
+// A compiler of kernels reserves nothing.
+TEST(HeapWatch, returnsWhatNobodyHadReserved) {
+  HeapWatch heap;
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_FALSE(heap.note({.used_bytes = 350 * kMiB, .resident_bytes = 150 * kMiB}));
+  }
+  EXPECT_FALSE(heap.note({.used_bytes = 350 * kMiB, .resident_bytes = 400 * kMiB}));
+  EXPECT_FALSE(heap.note({.used_bytes = 350 * kMiB, .resident_bytes = 300 * kMiB}));
+  EXPECT_TRUE(heap.note({.used_bytes = 350 * kMiB, .resident_bytes = 300 * kMiB}));
+  // Kernels stay: there is nothing more to be had.
+  for (int i = 0; i < 20; ++i) {
+    EXPECT_FALSE(heap.note({.used_bytes = 350 * kMiB, .resident_bytes = 200 * kMiB}));
+  }
+}
+
+TEST(HeapWatch, leavesTheHeapToStreamsThatKeepIt) {
+  HeapWatch heap;
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_FALSE(heap.note(
+        {.used_bytes = i % 2 == 0 ? 100 * kMiB : 10 * kMiB, .resident_bytes = 160 * kMiB}));
+  }
+}
+
 TEST(HeapWatch, waitsForAsMuchAsIsWorthIt) {
   HeapWatch heap;
   for (int i = 0; i < 10; ++i) EXPECT_FALSE(heap.note({.used_bytes = 100 * kMiB}));
@@ -54,7 +77,10 @@ TEST(MemoryReturn, ticksAndEndsAtOnce) {
   MemoryBudget budget(1000);
   std::atomic<int> tick_count = 0;
   {
-    const MemoryReturn memory_return(budget, [&] { ++tick_count; });
+    const MemoryReturn memory_return(budget, [&] {
+      ++tick_count;
+      return uint64_t{0};
+    });
     while (tick_count == 0) std::this_thread::yield();
   }
   EXPECT_GE(tick_count, 1);
@@ -65,6 +91,7 @@ TEST(MemoryReturn, goesOnAfterAnException) {
   std::atomic<int> tick_count = 0;
   const MemoryReturn memory_return(budget, [&] {
     if (++tick_count == 1) throw std::runtime_error("planted");
+    return uint64_t{0};
   });
   while (tick_count < 2) std::this_thread::yield();
 }
