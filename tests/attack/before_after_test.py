@@ -34,7 +34,7 @@ class BeforeAfter(unittest.TestCase):
         row = judge.Row("ping", 9, 10.0, 0.5, 0.1, 64.4, 1.25, ["gap: 0.50 s"])
         output = f"{judge.HEADER}\n{row.text()}\n"
         self.assertEqual(before_after.cell_of(output, "ping"),
-                         "9 of 10, 0.50 s, 64 MiB, 1.25 s; gap: 0.50 s")
+                         "9 of 10, 0 lost, 0.50 s, 64 MiB, 1.25 s; gap: 0.50 s")
         self.assertIsNone(before_after.cell_of(output, "settings"))
 
     def test_a_server_that_hangs_or_does_not_start_is_said(self):

@@ -2,8 +2,8 @@
 """A publisher and one viewer of a small quilt, which an attack must not disturb.
 
 Prints "ready" when pictures come. Each line on standard input begins a new count; its answer is
-what was due, what was seen, what was dropped, the longest gap, and how old pictures were when they
-came, as JSON. The end of the input ends the pair.
+what was due, what was seen, what was dropped on the way to the viewer, what was lost anywhere, the
+longest gap, and how old pictures were when they came, as JSON. The end of the input ends the pair.
 """
 
 import argparse
@@ -35,23 +35,24 @@ class Count:
 
     def __init__(self):
         self.begun_s = self.last_s = time.monotonic()
-        self.due = self.seen = self.dropped = 0
+        self.due = self.seen = self.dropped = self.lost = 0
         self.longest_gap_s = 0.0
         self.ages_s = []
 
-    def see(self, atlas):
+    def see(self, atlas, lost):
         now_s = time.monotonic()
         self.longest_gap_s = max(self.longest_gap_s, now_s - self.last_s)
         self.last_s = now_s
         self.seen += 1
         self.dropped += atlas.skipped
+        self.lost += lost
         self.ages_s.append((time.time_ns() - atlas.header.capture_time_ns) * 1e-9)
 
     def result(self):
         gap_s = max(self.longest_gap_s, time.monotonic() - self.last_s)
         ages_s = sorted(self.ages_s) or [float("inf")]
         return {"due": self.due, "seen": self.seen, "dropped": self.dropped,
-                "longest_gap_s": round(gap_s, 3),
+                "lost": self.lost, "longest_gap_s": round(gap_s, 3),
                 "age_p99_s": round(ages_s[int(0.99 * (len(ages_s) - 1))], 4)}
 
 
@@ -81,8 +82,12 @@ class Pair:
     def watch(self):
         time.sleep(0.5)  # the stream is there then
         with self.server.watch(self.words.stream, self.display) as watcher:
+            captured_ns = None
             while not self.stopping.is_set():
-                self.count.see(watcher.receive(60))
+                atlas = watcher.receive(60)
+                before_ns, captured_ns = captured_ns, atlas.header.capture_time_ns
+                steps = round((captured_ns - (before_ns or captured_ns)) * 1e-9 * self.words.rate)
+                self.count.see(atlas, max(0, steps - 1))
                 self.first_picture.set()
 
 

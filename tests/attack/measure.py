@@ -42,4 +42,5 @@ def measure(attack, server, pair, meter, address, its_budget):
     if not is_well(pair):
         found.append(f"the pair is not well {RECOVERY_S:.0f} s later")
     return judge.Row(attack.__name__, count["seen"], rest["seen"] * took_s / rest_s,
-                     count["longest_gap_s"], rest["longest_gap_s"], memory_mib, cpu_s, found)
+                     count["longest_gap_s"], rest["longest_gap_s"], memory_mib, cpu_s, found,
+                     count["lost"])

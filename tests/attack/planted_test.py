@@ -93,6 +93,8 @@ class Planted(unittest.TestCase):
 
     def test_each_limit_is_judged(self):
         self.assertIn("pictures: 12 of 20", self.found(row(pictures=12)))
+        self.assertIn("lost: 2 pictures", self.found(row(lost=2), judge.FRONT, True))
+        self.assertEqual(self.found(row(lost=1), judge.FRONT, True), "")
         self.assertIn("gap: 0.80 s", self.found(row(longest_gap_s=0.8)))
         self.assertIn("memory: 70 MiB", self.found(row(memory_mib=70)))
         self.assertIn("CPU: 9.00 s", self.found(row(cpu_s=9)))
