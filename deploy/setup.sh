@@ -16,7 +16,7 @@ TEXT
 # where there is one.
 runtime_packages=(
   ca-certificates fonts-dejavu-core libabsl20220623 libepoxy0 libgl1 libgrpc++1.51 libheif1 libhwy1
-  libjpeg62-turbo libopenexr-3-1-30 libpng16-16 libprometheus-cpp-core1.0 libprotobuf32 libqrencode4 libsdl2-2.0-0
+  libjpeg62-turbo libopenexr-3-1-30 libopenh264-7 libpng16-16 libprometheus-cpp-core1.0 libprotobuf32 libqrencode4 libsdl2-2.0-0
   libseccomp2 libsdl2-ttf-2.0-0 libspdlog1.10 libssl3 libtiff6 libtomlplusplus3 libturbojpeg0 libvulkan1 libwebp7 libwebpdemux2 libzstd1
   mesa-vulkan-drivers zlib1g
 )
@@ -24,7 +24,7 @@ build_packages=(
   ccache cmake g++ git mold ninja-build pkg-config python3
   glslang-tools libvulkan-dev mesa-vulkan-drivers libglm-dev
   libabsl-dev libgrpc++-dev libhwy-dev libprotobuf-dev protobuf-compiler protobuf-compiler-grpc grpc-proto
-  libheif-dev libjpeg62-turbo-dev libturbojpeg0-dev libopenexr-dev libpng-dev libtiff-dev libwebp-dev
+  libheif-dev libjpeg62-turbo-dev libturbojpeg0-dev libopenexr-dev libopenh264-dev libpng-dev libtiff-dev libwebp-dev
   libzstd-dev zlib1g-dev
   libboost-dev libcli11-dev libqrencode-dev libspdlog-dev libssl-dev libtomlplusplus-dev nlohmann-json3-dev
   libseccomp-dev prometheus-cpp-dev

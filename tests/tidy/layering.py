@@ -30,6 +30,7 @@ LAYERS = {
     "server/core/messages": (["base", "frame", "display"],
                              ["absl", "grpc", "nlohmann", "protobuf"]),
     "server/core/usage": (["base"], ["cli11"]),
+    "server/core/video": (["base", "frame/size.h"], ["absl", "openh264"]),
     "server/metrics": (["base"], ["prometheus"]),
     # Prices of memory, and its ledger.
     "server/admission": (["base", "frame", "display", SHADERS_SHARED], ["absl"]),
@@ -139,7 +140,7 @@ THIRD_PARTY = [
     ("openexr", r"OpenEXR/|Imath/|Imf|Imath"), ("cli11", r"CLI/"),
     ("vulkan", r"vulkan/"), ("boost", r"boost/"), ("zlib", r"zlib\.h"),
     ("highway", r"hwy/"), ("openssl", r"openssl/"), ("sdl", r"SDL\w*\.h"), ("epoxy", r"epoxy/"),
-    ("seccomp", r"seccomp\.h"),
+    ("seccomp", r"seccomp\.h"), ("openh264", r"wels/"),
     ("grpc", r"grpcpp/|grpc/|.*\.grpc\.pb\.h"),
     ("protobuf", r"google/protobuf/|.*\.pb\.h"),
     ("gtest", r"gtest/|gmock/"), ("benchmark", r"benchmark/"),

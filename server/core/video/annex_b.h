@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of an H.264 byte stream (ITU-T H.264, annex B).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace viewloom {
+
+// Values of nal_unit_type (table 7-1).
+enum class NalType : uint8_t {
+  kSlice = 1,
+  kIdrSlice = 5,
+  kSupplement = 6,
+  kSequenceParameters = 7,
+  kPictureParameters = 8,
+  kDelimiter = 9,
+};
+
+// A unit without its start code. Borrowed bytes, of which the first holds the type.
+struct NalUnit {
+  std::span<const uint8_t> bytes;
+
+  NalType type() const { return NalType(bytes.front() & 0x1F); }
+};
+
+// All units of any bytes. Bytes before the first start code, and empty units, are left out.
+std::vector<NalUnit> nalUnits(std::span<const uint8_t> stream);
+
+}  // namespace viewloom

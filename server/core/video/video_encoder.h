@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Interface of video encoders.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/status.h"
+#include "frame/size.h"
+#include "video/video_picture.h"
+
+namespace viewloom {
+
+// Format of all pictures of an encoder.
+struct VideoFormat {
+  SizePx size_px;             // even, from 16x16 px to an area of kVideoAreaMax_px
+  uint32_t qp = 26;           // quantisation, 1..51
+  uint32_t thread_count = 1;  // each codes a slice of a picture; 1 = the caller's thread
+
+  bool operator==(const VideoFormat&) const = default;
+};
+
+// Largest picture of H.264 up to level 5.1, which is also OpenH264's limit.
+inline constexpr uint64_t kVideoAreaMax_px = 9'437'184;
+inline constexpr uint32_t kVideoSideMin_px = 16;
+
+// Picture that a coded picture refers to.
+enum class Reference : uint8_t { kNone, kPictureBefore };
+
+// Codes pictures as H.264. Each call makes one access unit in Annex B format. A picture without a
+// reference is an IDR picture with its parameter sets; others are P pictures that refer to the
+// picture of the last call alone. Pictures leave in the order in which they come.
+// Thread-safety: none; one thread at a time.
+class VideoEncoder {
+ public:
+  virtual ~VideoEncoder() = default;
+
+  virtual const VideoFormat& format() const = 0;
+  // Replaces the content of `access_unit`. The first picture has no reference, whatever is asked.
+  // INVALID_ARGUMENT for a picture of another size, INTERNAL if the encoder fails.
+  // RESOURCE_EXHAUSTED if memory is missing. After an error the next picture needs kNone.
+  virtual absl::Status encode(const VideoPicture& picture, Reference reference,
+                              std::vector<uint8_t>& access_unit) = 0;
+};
+
+}  // namespace viewloom

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "unit/video/sample_picture.h"
+#include "video/annex_b.h"
+#include "video/h264_parameters.h"
+#include "video/openh264_decoder.h"
+#include "video/openh264_encoder.h"
+
+namespace viewloom::test::openh264_test {
+namespace {
+
+using AccessUnit = std::vector<uint8_t>;
+
+std::unique_ptr<OpenH264Encoder> encoderOf(const VideoFormat& format) {
+  auto encoder = OpenH264Encoder::make(format);
+  EXPECT_TRUE(encoder.ok()) << encoder.status();
+  return *std::move(encoder);
+}
+
+std::unique_ptr<OpenH264Decoder> newDecoder() {
+  auto decoder = OpenH264Decoder::make();
+  EXPECT_TRUE(decoder.ok()) << decoder.status();
+  return *std::move(decoder);
+}
+
+AccessUnit coded(VideoEncoder& encoder, const SamplePicture& picture, Reference reference) {
+  AccessUnit unit;
+  const absl::Status status = encoder.encode(picture.video(), reference, unit);
+  EXPECT_TRUE(status.ok()) << status;
+  return unit;
+}
+
+Reference referenceOf(int picture) {
+  return picture == 0 ? Reference::kNone : Reference::kPictureBefore;
+}
+
+// A stack of pictures whose texture moves by 2 px from one to the next.
+std::vector<AccessUnit> codedStack(VideoEncoder& encoder, int count) {
+  std::vector<AccessUnit> units;
+  for (int i = 0; i < count; ++i) {
+    units.push_back(
+        coded(encoder, SamplePicture::texture(encoder.format().size_px, 2 * i), referenceOf(i)));
+  }
+  return units;
+}
+
+std::vector<NalType> typesOf(const AccessUnit& unit) {
+  std::vector<NalType> types;
+  for (const NalUnit& nal : nalUnits(unit)) types.push_back(nal.type());
+  return types;
+}
+
+TEST(OpenH264, decodesEveryPictureOfAStackRightAway) {
+  const SizePx size_px{322, 202};
+  const auto encoder = encoderOf({.size_px = size_px, .qp = 22});
+  const auto decoder = newDecoder();
+  for (int atlas = 0; atlas < 2; ++atlas) {
+    const std::vector<AccessUnit> units = codedStack(*encoder, 4);
+    for (int i = 0; i < 4; ++i) {
+      const auto picture = decoder->decode(units[size_t(i)], size_px);
+      ASSERT_TRUE(picture.ok()) << picture.status();
+      EXPECT_GT(psnrOfLuma(*picture, SamplePicture::texture(size_px, 2 * i).video()), 42);
+    }
+  }
+}
+
+TEST(OpenH264, beginsEachAtlasWithAPictureOfItsOwn) {
+  const auto encoder = encoderOf({.size_px = {64, 48}});
+  for (int atlas = 0; atlas < 3; ++atlas) {
+    const std::vector<AccessUnit> units = codedStack(*encoder, 3);
+    EXPECT_THAT(typesOf(units[0]),
+                testing::ElementsAre(NalType::kSequenceParameters, NalType::kPictureParameters,
+                                     NalType::kIdrSlice));
+    EXPECT_THAT(typesOf(units[1]), testing::ElementsAre(NalType::kSlice));
+    EXPECT_THAT(typesOf(units[2]), testing::ElementsAre(NalType::kSlice));
+    EXPECT_LT(units[1].size(), units[0].size());
+  }
+}
+
+TEST(OpenH264, saysColorLevelAndOrder) {
+  const auto encoder = encoderOf({.size_px = {840, 1120}});
+  const auto parameters = h264ParametersOf(codedStack(*encoder, 1).front());
+  ASSERT_TRUE(parameters.ok()) << parameters.status();
+  EXPECT_EQ(parameters->size_px, (SizePx{840, 1120}));
+  EXPECT_EQ(parameters->level, h264Level({840, 1120}));
+  EXPECT_EQ(h264CodecString(*parameters), "avc1.4D4C20");
+  EXPECT_EQ(parameters->reorder_count, 0u);
+  EXPECT_EQ(parameters->color,
+            (H264Color{.is_full_range = true, .primaries = 1, .transfer = 13, .matrix = 6}));
+}
+
+TEST(OpenH264, keepsFlatPatchesWithinOneCode) {
+  const SizePx size_px{128, 96};
+  const auto encoder = encoderOf({.size_px = size_px, .qp = 26});
+  const auto decoder = newDecoder();
+  for (const int code : {0, 1, 37, 128, 200, 254, 255}) {
+    const SamplePicture patch =
+        SamplePicture::flat(size_px, uint8_t(code), uint8_t(255 - code), 90);
+    for (int i = 0; i < 3; ++i) {
+      const auto picture = decoder->decode(coded(*encoder, patch, referenceOf(i)), size_px);
+      ASSERT_TRUE(picture.ok()) << picture.status();
+      EXPECT_NEAR(picture->y[0], code, 1);
+      EXPECT_NEAR(picture->cb[0], 255 - code, 1);
+      EXPECT_NEAR(picture->cr[0], 90, 1);
+    }
+  }
+}
+
+TEST(OpenH264, takesPicturesFromTheSmallestToTheLargest) {
+  for (const SizePx size_px : {SizePx{16, 16}, SizePx{18, 16}, SizePx{4096, 2176}}) {
+    const auto encoder = encoderOf({.size_px = size_px});
+    const auto decoder = newDecoder();
+    for (const AccessUnit& unit : codedStack(*encoder, 2)) {
+      const auto picture = decoder->decode(unit, size_px);
+      ASSERT_TRUE(picture.ok()) << picture.status();
+      EXPECT_EQ(picture->size_px, size_px);
+    }
+  }
+}
+
+TEST(OpenH264, codesSlicesOnSeveralThreads) {
+  const SizePx size_px{640, 480};
+  const auto encoder = encoderOf({.size_px = size_px, .thread_count = 3});
+  const auto decoder = newDecoder();
+  const std::vector<AccessUnit> units = codedStack(*encoder, 2);
+  EXPECT_EQ(typesOf(units[1]), std::vector<NalType>(3, NalType::kSlice));
+  for (const AccessUnit& unit : units) EXPECT_TRUE(decoder->decode(unit, size_px).ok());
+}
+
+TEST(OpenH264, refusesFormatsThatItCannotCode) {
+  for (const VideoFormat& format :
+       {VideoFormat{.size_px = {15, 16}}, VideoFormat{.size_px = {33, 32}},
+        VideoFormat{.size_px = {4096, 2306}}, VideoFormat{.size_px = {64, 64}, .qp = 0},
+        VideoFormat{.size_px = {64, 64}, .qp = 52},
+        VideoFormat{.size_px = {64, 64}, .thread_count = 17}}) {
+    EXPECT_EQ(OpenH264Encoder::make(format).status().code(), absl::StatusCode::kInvalidArgument);
+  }
+}
+
+TEST(OpenH264, refusesAPictureWhoseReferenceIsMissing) {
+  const SizePx size_px{64, 64};
+  const auto encoder = encoderOf({.size_px = size_px});
+  const std::vector<AccessUnit> units = codedStack(*encoder, 3);
+  const auto decoder = newDecoder();
+  EXPECT_FALSE(decoder->decode(units[1], size_px).ok());
+  EXPECT_TRUE(decoder->decode(units[0], size_px).ok());
+  EXPECT_FALSE(decoder->decode(units[2], size_px).ok()) << "picture 1 was left out";
+  EXPECT_FALSE(decoder->decode(units[1], size_px).ok()) << "an error lasts until the next IDR";
+  EXPECT_TRUE(decoder->decode(units[0], size_px).ok());
+}
+
+TEST(OpenH264, refusesPicturesOfAnotherSizeBeforeItTakesMemory) {
+  const auto encoder = encoderOf({.size_px = {4096, 2176}});
+  const AccessUnit unit = codedStack(*encoder, 1).front();
+  const auto refused = newDecoder()->decode(unit, {64, 64});
+  EXPECT_EQ(refused.status().code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(refused.status().message()),
+              testing::HasSubstr("pictures of 4096x2176 px; expected are 64x64 px"));
+}
+
+TEST(OpenH264, refusesDamagedPicturesOrDecodesThemInFull) {
+  const SizePx size_px{64, 64};
+  const auto encoder = encoderOf({.size_px = size_px});
+  const AccessUnit whole = codedStack(*encoder, 1).front();
+  const auto decoder = newDecoder();
+  for (size_t size_bytes = 0; size_bytes + 8 < whole.size(); size_bytes += 7) {
+    EXPECT_FALSE(decoder->decode(std::span(whole).first(size_bytes), size_px).ok()) << size_bytes;
+  }
+  for (size_t at = 0; at < whole.size(); ++at) {
+    AccessUnit spoilt = whole;
+    spoilt[at] ^= 0x55;
+    const auto picture = decoder->decode(spoilt, size_px);
+    EXPECT_TRUE(!picture.ok() || picture->size_px == size_px);
+  }
+  EXPECT_TRUE(decoder->decode(whole, size_px).ok()) << "damage before it does no harm";
+}
+
+}  // namespace
+}  // namespace viewloom::test::openh264_test
