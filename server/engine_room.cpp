@@ -40,6 +40,7 @@ class DeviceRoom final : public EngineRoom {
                    .on_failure = inWords(std::move(links.on_failure)),
                    .memory = links.memory},
                   {.encode_thread_count = encode_thread_count,
+                   .video_thread_count = config.pipeline.video_threads,
                    .structure_slots_per_stream = config.pipeline.structure_slots,
                    .atlas_limits = limits}) {}
 

@@ -103,28 +103,7 @@ void addDisplayOptions(const usage::Command& app, DisplayOptions& options) {
       .defaultText("no reflections")
       .excludes(file)
       .group(group);
-  const usage::Option encoding =
-      app.add("--encoding", options.encoding,
-              "Encoding of atlases: AtlasEncoding of the protocol, as JSON")
-          .valueName("JSON")
-          .group("Encoding");
-  app.add("--quality", options.jpeg_quality, "JPEG quality, 1 to 100")
-      .between(1, 100)
-      .showDefault()
-      .excludes(encoding)
-      .group("Encoding");
-  app.addFlag("--444", options.is_444, "Keep the full resolution of colour in JPEG")
-      .excludes(encoding)
-      .group("Encoding");
-  app.addFlag("--lossless", options.is_lossless, "Send colour without loss (zstd) instead of JPEG")
-      .excludes(encoding)
-      .group("Encoding");
-}
-
-void addMaskOption(const usage::Command& app, DisplayOptions& options) {
-  app.addFlag("--mask", options.has_mask,
-              "Receive the class of each pixel too: 1 or 2 hit, 3 hidden, 4 outside, 5 empty")
-      .group("Encoding");
+  addEncodingOptions(app, options.encoding);
 }
 
 void addPanelOptions(const usage::Command& app, DisplayOptions& options) {
@@ -277,23 +256,6 @@ absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options) {
   if (!lenticular.ok()) return lenticular.status();
   *display.mutable_lenticular() = *std::move(lenticular);
   return display;
-}
-
-absl::StatusOr<v1::AtlasEncoding> makeEncoding(const DisplayOptions& options) {
-  v1::AtlasEncoding encoding;
-  if (!options.encoding.empty()) {
-    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(
-        messageFromJson(options.encoding, kDisplayBytesMax, encoding), "--encoding"));
-    if (options.has_mask) encoding.set_with_mask(true);
-    return encoding;
-  }
-  // The server chooses values left open, by the display.
-  if (options.is_lossless) encoding.set_color(v1::BAND_ENCODING_ZSTD);
-  if (options.is_444) encoding.set_color(v1::BAND_ENCODING_JPEG);
-  encoding.set_jpeg_quality(options.jpeg_quality);
-  if (options.is_444) encoding.set_chroma(v1::CHROMA_SUBSAMPLING_444);
-  encoding.set_with_mask(options.has_mask);
-  return encoding;
 }
 
 }  // namespace viewloom::cli

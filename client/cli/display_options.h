@@ -6,10 +6,10 @@
 
 #include "base/status.h"
 #include "cli/effect_options.h"
+#include "cli/encoding_options.h"
 #include "cli/rgbd_options.h"
 #include "frame/size.h"
 #include "usage/command_line.h"
-#include "viewloom/v1/atlas.pb.h"
 #include "viewloom/v1/display.pb.h"
 
 namespace viewloom::cli {
@@ -31,18 +31,13 @@ struct DisplayOptions {
   uint32_t sample_count = 1;
   LensOptions lens;
   uint32_t bounce_count = 0;  // of reflections; 0 = none
-  std::string encoding;       // as JSON; or what follows
-  uint32_t jpeg_quality = 85;
-  bool is_444 = false;
-  bool is_lossless = false;
-  bool has_mask = false;
+  EncodingOptions encoding;
 };
 
 // Options for the places and frames of its views, without their field of view.
 usage::Option addDisplayShape(const usage::Command& app, DisplayOptions& options);
 // Those options, and the rest of a request to a server.
 void addDisplayOptions(const usage::Command& app, DisplayOptions& options);
-void addMaskOption(const usage::Command& app, DisplayOptions& options);
 
 // The px of the device itself instead of a quilt.
 void addPanelOptions(const usage::Command& app, DisplayOptions& options);
@@ -55,6 +50,5 @@ bool hasOwnFov(const DisplayOptions& options);
 void addDepthDisplayOptions(const usage::Command& app, DisplayOptions& options);
 
 absl::StatusOr<v1::Display> makeDisplay(const DisplayOptions& options);
-absl::StatusOr<v1::AtlasEncoding> makeEncoding(const DisplayOptions& options);
 
 }  // namespace viewloom::cli

@@ -42,7 +42,7 @@ class RecordRun {
   int run() {
     const absl::StatusOr<v1::Display> display = makeDisplay(options_.display);
     if (!display.ok()) return usage(display.status());
-    const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options_.display);
+    const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options_.display.encoding);
     if (!encoding.ok()) return usage(encoding.status());
     catchInterrupts();
     auto recorder = AtlasRecorder::create(options_.file, clock_);

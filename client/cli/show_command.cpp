@@ -97,7 +97,7 @@ absl::StatusOr<show::SessionOptions> makeSession(const ShowOptions& options) {
   const bool is_panel = calibration->has_value();
   const absl::StatusOr<v1::Display> display = displayOf(options.display, *calibration);
   if (!display.ok()) return display.status();
-  const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options.display);
+  const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options.display.encoding);
   if (!encoding.ok()) return encoding.status();
   const show::ShowMode usual = is_panel ? show::ShowMode::kNative : plainMode(*display);
   const show::ShowMode mode = show::modeNamed(options.mode).value_or(usual);

@@ -62,7 +62,7 @@ class WatchRun {
     if (!options_.recording.empty()) return runRecording();
     const absl::StatusOr<v1::Display> display = makeDisplay(options_.display);
     if (!display.ok()) return usage(display.status());
-    const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options_.display);
+    const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options_.display.encoding);
     if (!encoding.ok()) return usage(encoding.status());
     v1::OpenDisplay open;
     open.set_stream(options_.stream);
@@ -293,7 +293,7 @@ RunCommand addWatchCommand(const usage::Command& app) {
   addDisplayOptions(app, options->display);
   addPanelOptions(app, options->display);
   addDepthDisplayOptions(app, options->display);
-  addMaskOption(app, options->display);
+  addMaskOption(app, options->display.encoding);
   return [options](const CommonOptions& common) -> int { return WatchRun(*options, common).run(); };
 }
 

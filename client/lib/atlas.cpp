@@ -9,6 +9,7 @@
 
 #include "base/check.h"
 #include "base/str_cat.h"
+#include "lib/stacked_atlas.h"
 
 namespace viewloom {
 namespace {
@@ -30,13 +31,20 @@ std::vector<const AtlasBand*> bandsOf(const Atlas& atlas, v1::AtlasPlane plane, 
   return bands;
 }
 
-// Servers that know of one image alone leave the count out.
+// Servers that know of one image alone leave the count out. Pictures of a stack are images, too.
 uint32_t imageCount(const Atlas& atlas) {
+  if (atlas.layout->has_video()) return atlas.layout->video().picture_count();
   return std::max(atlas.layout->image_count(), 1u);
 }
 
 uint32_t imageHeight(const Atlas& atlas) {
+  if (atlas.layout->has_video()) return atlas.layout->video().picture_size().height();
   return atlas.layout->size().height() / imageCount(atlas);
+}
+
+uint32_t imageWidth(const Atlas& atlas) {
+  if (atlas.layout->has_video()) return atlas.layout->video().picture_size().width();
+  return atlas.layout->size().width();
 }
 
 constexpr v1::AtlasPlane kChannelPlanes[] = {v1::ATLAS_PLANE_RED, v1::ATLAS_PLANE_GREEN,
@@ -74,6 +82,9 @@ absl::Status decodeJpeg(const std::string& jpeg, uint32_t image, uint32_t image_
 }
 
 absl::Status unpackBand(const AtlasBand& band, uint8_t* out, size_t size) {
+  if (band.encoding == v1::BAND_ENCODING_H264) {
+    return absl::DataLossError("a band came as H.264 where the layout says no stack of pictures");
+  }
   if (band.encoding == v1::BAND_ENCODING_RAW) {
     if (band.bytes.size() != size) {
       return absl::DataLossError(strCat("band at row ", band.first_row, " has ", band.bytes.size(),
@@ -143,6 +154,14 @@ absl::Status decodeImage(const Atlas& atlas, v1::AtlasPlane plane, uint32_t imag
   return absl::OkStatus();
 }
 
+// Whether the plane came as video, and the layout says how its pictures lie.
+bool isVideo(const Atlas& atlas, v1::AtlasPlane plane) {
+  return atlas.layout->has_video() && plane == v1::ATLAS_PLANE_COLOR &&
+         std::ranges::all_of(atlas.bands, [](const AtlasBand& band) {
+           return band.plane != v1::ATLAS_PLANE_COLOR || band.encoding == v1::BAND_ENCODING_H264;
+         });
+}
+
 absl::StatusOr<AtlasPicture> joinChannels(const Atlas& atlas) {
   AtlasPicture joined{.width_px = atlas.layout->size().width(),
                       .height_px = atlas.layout->size().height(),
@@ -166,15 +185,17 @@ absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plan
     return joinChannels(atlas);
   }
   if (!hasWholePlane(atlas, plane)) return missing(plane);
-  AtlasPicture picture{.width_px = atlas.layout->size().width(),
-                       .height_px = atlas.layout->size().height(),
+  if (isVideo(atlas, plane)) return decodeVideo(atlas);
+  const v1::AtlasLayout& layout = *atlas.layout;
+  AtlasPicture picture{.width_px = imageWidth(atlas),
+                       .height_px = imageCount(atlas) * imageHeight(atlas),
                        .channels = channelsOf(plane),
                        .samples = {}};
   picture.samples.resize(size_t{picture.width_px} * picture.channels * picture.height_px);
   for (uint32_t image = 0; image < imageCount(atlas); ++image) {
     VIEWLOOM_RETURN_IF_ERROR(decodeImage(atlas, plane, image, picture));
   }
-  return picture;
+  return layout.has_video() ? unstack(picture, layout) : picture;
 }
 
 TilePlace placeOfView(const v1::AtlasLayout& layout, uint32_t view) {

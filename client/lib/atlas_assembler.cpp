@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/str_cat.h"
+#include "lib/stacked_atlas.h"
 
 namespace viewloom {
 
@@ -28,7 +29,7 @@ absl::Status checkLayout(const v1::AtlasLayout& layout) {
   if (layout.image_count() > height) {
     return absl::DataLossError("the layout has an atlas of more images than it has rows");
   }
-  return absl::OkStatus();
+  return layout.has_video() ? checkStack(layout) : absl::OkStatus();
 }
 
 // Older servers, and recordings of them, say it before the bands.

@@ -124,6 +124,8 @@ v1::AtlasEncoding ShowSession::encoding() const {
   v1::AtlasEncoding encoding = options_.encoding;
   if (settings_.mode == ShowMode::kNative) {
     encoding.set_jpeg_quality(std::max(encoding.jpeg_quality(), kNativeJpegQuality));
+    // Video is for views. The server chooses what serves a panel's own pixels.
+    if (encoding.color() == v1::BAND_ENCODING_H264) encoding.clear_color();
   }
   return encoding;
 }

@@ -7,6 +7,7 @@
 #include "base/str_cat.h"
 #include "display/atlas_layout.h"
 #include "display/kind.h"
+#include "display/video_stack.h"
 #include "shared/trace_abi.h"
 
 namespace viewloom {
@@ -16,6 +17,8 @@ namespace {
 constexpr uint64_t kRaysCopies = 4;
 // From this quality on, JPEG takes about twice as many bytes.
 constexpr uint32_t kFineQuality = 91;
+// Below this quantisation, video takes more than JPEG at its finest.
+constexpr uint32_t kFineVideoQp = 12;
 constexpr uint32_t kColorPixelBytes = 4;
 constexpr uint32_t kDepthPixelBytes = 4;
 constexpr uint32_t kCodePixelBytes = 2;
@@ -25,6 +28,9 @@ uint64_t encodedColorBytes(const EncodingSpec& encoding, uint64_t area_px) {
     case BandEncoding::kJpeg:
     case BandEncoding::kJpegPlanes:
       return encoding.jpeg_quality < kFineQuality ? area_px / 2 : area_px;
+    case BandEncoding::kH264:
+      if (encoding.video_qp < kFineVideoQp) break;
+      return encoding.video_qp < matchedVideoQp(kFineQuality) ? area_px : area_px / 2;
     case BandEncoding::kZstd:
     case BandEncoding::kRaw:
       break;
@@ -36,6 +42,15 @@ uint64_t encodedBytes(const EncodingSpec& encoding, uint64_t area_px) {
   return encodedColorBytes(encoding, area_px) +
          area_px * ((encoding.with_depth ? kDepthPixelBytes : 0) + (encoding.with_mask ? 1 : 0) +
                     (encoding.with_depth_codes ? kCodePixelBytes : 0));
+}
+
+// Pictures of a video that wait to be coded, and what an encoder keeps.
+uint64_t videoBytes(const TileGrid& grid) {
+  const absl::StatusOr<VideoStack> stack = planVideoStack(grid.tile_size_px, grid.view_count);
+  if (!stack.ok()) return 0;  // refused elsewhere
+  constexpr uint64_t kEncoderPixelBytes = 12;
+  const uint64_t picture_px = stack->pictureSize().area();
+  return picture_px * kEncoderPixelBytes + picture_px * stack->picture_count * 3 / 2;
 }
 
 uint64_t makingBytes(const EncodingSpec& encoding, uint64_t area_px) {
@@ -78,7 +93,8 @@ DisplayPrice displayPrice(const DisplaySpec& spec, const EncodingSpec& encoding)
       std::max(spec.filter.sample_count, spec.lens ? spec.lens->walked_count : 1U);
   return {.rays_bytes = kRaysCopies * samples * grid.view_count * sizeof(abi::ViewParams),
           .encoded_bytes = encodedBytes(encoding, area_px),
-          .making_bytes = makingBytes(encoding, area_px)};
+          .making_bytes = makingBytes(encoding, area_px) +
+                          (encoding.color == BandEncoding::kH264 ? videoBytes(grid) : 0)};
 }
 
 absl::StatusOr<Reservation> admitDisplay(MemoryBudget& budget, const DisplaySpec& spec,

@@ -58,6 +58,7 @@ struct MemoryConfig {
 struct PipelineConfig {
   uint32_t decode_threads = 0;  // 0 = see threadCount
   uint32_t encode_threads = 0;
+  uint32_t video_threads = 1;
   uint32_t structure_slots = 2;  // of each stream
   uint32_t trace_slots = 3;
   bool warm_up = true;  // compile kernels of likely displays before they are asked for

@@ -130,6 +130,8 @@ std::vector<Setting> pipelineSettings(PipelineConfig& pipeline) {
       {"pipeline.encode_threads", "",
        "Threads that encode atlases and render on the CPU; 0 is one per core, up to 8",
        CountSetting{&pipeline.encode_threads, 0, 64}},
+      {"pipeline.video_threads", "", "Threads that encode one picture of H.264 together, in slices",
+       CountSetting{&pipeline.video_threads, 1, 16}},
       {"pipeline.structure_slots", "",
        "Frames of one stream in memory at once: one is rendered while the next is prepared",
        CountSetting{&pipeline.structure_slots, 2, 16}},

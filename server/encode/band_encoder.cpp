@@ -79,6 +79,8 @@ EncodedBand BandEncoder::encode(const BandPixels& pixels, const EncodingSpec& en
     case BandEncoding::kRaw:
       band.bytes = lossless_->encodeRaw(pixels);
       break;
+    case BandEncoding::kH264:
+      failCheck(__FILE__, __LINE__, "video is coded in whole pictures (picture_planes.h)");
   }
   return band;
 }

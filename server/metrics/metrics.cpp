@@ -160,6 +160,8 @@ Metrics::Metrics(ClientNames names)
                                "Atlases that were begun and not finished, because nobody watched "
                                "them any more.")),
       bands_encoded(counter(store_->registry, "viewloom_bands_encoded_total", "Bands encoded.")),
+      video_pictures(counter(store_->registry, "viewloom_video_pictures_total",
+                             "Pictures of H.264 encoded; they are bands, too.")),
       encoded_bytes(
           counter(store_->registry, "viewloom_encoded_bytes_total", "Bytes of all encoded bands.")),
       rays(counters<RayAnswer>(store_->registry, "viewloom_rays_total",

@@ -21,6 +21,7 @@ class AtlasStrips {
         row_count_(row_count),
         per_image_((image_px_.height + row_count - 1) / row_count) {}
 
+  uint32_t perImage() const { return per_image_; }
   uint32_t count() const { return image_count_ * per_image_; }
   uint32_t rowCountMax() const { return row_count_; }
   uint32_t imageOf(uint32_t strip) const { return strip / per_image_; }

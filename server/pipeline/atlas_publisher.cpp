@@ -66,12 +66,14 @@ std::vector<EncodedBand> bandsOf(const AtlasOutput& output, const AtlasLayout& l
   const uint32_t image_height = layout.imageSize().height;
   std::vector<EncodedBand> bands;
   for (const AtlasPlane plane : planesOf(encoding)) {
+    const bool is_video = output.video && plane == AtlasPlane::kColor;
+    const uint32_t band_row_count = is_video ? image_height : output.band_row_count;
     for (uint32_t image = 0; image < layout.image_count; ++image) {
-      for (uint32_t row = 0; row < image_height; row += output.band_row_count) {
+      for (uint32_t row = 0; row < image_height; row += band_row_count) {
         bands.push_back({.image_index = image,
                          .plane = plane,
                          .first_row = row,
-                         .row_count = std::min(output.band_row_count, image_height - row),
+                         .row_count = std::min(band_row_count, image_height - row),
                          .encoding = isColor(plane) ? encoding.color : encoding.planes,
                          .bytes = nullptr});
       }

@@ -16,11 +16,19 @@ AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
   output.band_row_count = bandRowCount(display->encoding);
   output.bands_per_image = ceilDivide(layout.imageSize().height, output.band_row_count);
   output.bands_per_plane = layout.image_count * output.bands_per_image;
+  if (display->encoding.color == BandEncoding::kH264) {
+    output.video = std::make_unique<VideoAtlas>(*layout.stack, display->encoding.video_qp);
+  }
   output.display = std::move(display);
   return output;
 }
 
 }  // namespace
+
+size_t AtlasOutput::firstBandOf(uint32_t rank) const {
+  if (!video || rank == 0) return size_t{rank} * bands_per_plane;
+  return video->pictureCount() + size_t{rank - 1} * bands_per_plane;
+}
 
 AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
                    std::vector<ActiveDisplayPtr> displays)
@@ -28,9 +36,10 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
       picture(std::move(resolved)),
       display_pose(pose),
       claim(claimOf(job)) {
-  // Planes of Y'CbCr lie together for a whole atlas, and pair its rows.
-  const bool is_one_image = picture->layout->image_count == 1;
-  planes.color = is_one_image ? directForm(displays.front()->encoding) : ColorForm::kRgba;
+  // Planes of Y'CbCr lie together for a whole atlas, and pair its rows. Images of a stack have even
+  // heights.
+  const bool are_pairs_whole = picture->layout->image_count == 1 || picture->layout->stack;
+  planes.color = are_pairs_whole ? directForm(displays.front()->encoding) : ColorForm::kRgba;
   uint32_t strip_row_count = 0;
   for (ActiveDisplayPtr& display : displays) {
     if (directForm(display->encoding) != planes.color) planes.color = ColorForm::kRgba;

@@ -15,6 +15,7 @@
 #include "engine/engine.h"
 #include "pipeline/picture_cache.h"
 #include "pipeline/sliced_bands.h"
+#include "pipeline/video_atlas.h"
 #include "publish/broadcaster.h"
 #include "publish/growing_atlas.h"
 #include "schedule/atlas_job.h"
@@ -25,10 +26,14 @@ namespace viewloom {
 // A display of the picture, and its atlas, packed as it asked for: bands are [plane][band].
 struct AtlasOutput {
   ActiveDisplayPtr display;
-  GrowingAtlasPtr atlas;        // nullptr before the run's making begins
-  uint32_t band_row_count = 0;  // divides the run's
+  GrowingAtlasPtr atlas;              // nullptr before the run's making begins
+  std::unique_ptr<VideoAtlas> video;  // colour on its way into video; nullptr = no video
+  uint32_t band_row_count = 0;        // divides the run's; not of video
   uint32_t bands_per_image = 0;
   uint32_t bands_per_plane = 0;
+
+  // Bands of the planes before this one, which is the rank-th of the output.
+  size_t firstBandOf(uint32_t rank) const;
 };
 
 // A plane of each strip, packed as one output asked for.

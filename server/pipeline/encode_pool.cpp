@@ -22,6 +22,28 @@ std::span<const uint8_t> bytesOf(std::span<const Sample> samples) {
   return {reinterpret_cast<const uint8_t*>(samples.data()), samples.size_bytes()};
 }
 
+// Pictures of videos that wait for reuse.
+constexpr size_t kKeptPictureCount = 64;
+
+// Codes the next picture of a video. It packs no strip.
+class PictureCoding final : public StripWork {
+ public:
+  PictureCoding(int64_t predicted_ns, std::function<void()> code,
+                std::function<void(int64_t measured_ns)> note)
+      : StripWork({.strip_count = 0, .piece_count = 1, .piece_ns = predicted_ns}),
+        code_(std::move(code)),
+        note_(std::move(note)) {}
+
+  void makePiece(uint32_t) override { code_(); }
+  void notePiece(int64_t measured_ns) override { note_(measured_ns); }
+  RayCounts counts() const override { return {}; }
+  StripPlanes planes(uint32_t) const override { return {}; }
+
+ private:
+  const std::function<void()> code_;
+  const std::function<void(int64_t measured_ns)> note_;
+};
+
 // Woken, this thread then takes no core from one that is at work: those that begin atlases, receive
 // poses and send bands need one for microseconds. Where that is not allowed all take their turns.
 void computeInBatches() {
@@ -51,9 +73,15 @@ struct EncodePool::StripPixels {
 };
 
 EncodePool::EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, FairShares& shares,
-                       uint32_t thread_count)
-    : links_(links), publisher_(publisher), bytes_(kKeptBandCount), tasks_(shares) {
+                       uint32_t thread_count, uint32_t video_thread_count)
+    : links_(links),
+      publisher_(publisher),
+      bytes_(kKeptBandCount),
+      planes_(kKeptPictureCount),
+      video_encoders_(video_thread_count),
+      tasks_(shares) {
   links_.memory.addIdle(bytes_.idleMemory());
+  links_.memory.addIdle(planes_.idleMemory());
   for (uint32_t i = 0; i < thread_count; ++i) {
     threads_.emplace_back([this] {
       nameThread("encode");
@@ -107,9 +135,46 @@ void EncodePool::finish(EncodeTask task) {
   const AtlasRunPtr run = task.batch->run;
   if (!task.is_strip) return tasks_.noteMade(*task.batch);  // after the last, others may pack
   task.batch.reset();
-  if (!run->noteEncoded(task.rows.row_count) || run->isGivenUp()) return;
+  const PackedPlane& packed = run->packs[task.pack];
+  const bool is_coded_later = run->outputs[packed.output].video && isColor(packed.plane);
+  if (!is_coded_later) finishRows(run, task.rows.row_count);
+}
+
+void EncodePool::finishRows(const AtlasRunPtr& run, uint32_t row_count) {
+  if (!run->noteEncoded(row_count) || run->isGivenUp()) return;
   const absl::Status status = withinMemory([&] { publisher_.complete(*run); });
   if (!status.ok()) publisher_.giveUp(*run, status);
+}
+
+void EncodePool::putIntoVideo(const AtlasRunPtr& run, const EncodeTask& task,
+                              const StripPixels& strip) {
+  const size_t output = run->packs[task.pack].output;
+  const BandPixels rows = rowsOf(strip.color, task.rows.first_row, task.rows.row_count);
+  if (run->outputs[output].video->put(strip.image, rows, planes_)) pushCoding(run, output);
+}
+
+void EncodePool::pushCoding(const AtlasRunPtr& run, size_t output) {
+  const uint64_t px_count = run->picture->layout->imageSize().area();
+  PackCosts& costs = tasks_.packCosts();
+  tasks_.pushFirst(std::make_shared<StripBatch>(
+      run,
+      std::make_unique<PictureCoding>(
+          costs.predictCodingNs(px_count), [this, run, output] { codePicture(run, output); },
+          [&costs, px_count](int64_t measured_ns) { costs.noteCoding(px_count, measured_ns); })));
+}
+
+// The rows of the picture count as packed only now.
+void EncodePool::codePicture(const AtlasRunPtr& run, size_t output) {
+  if (run->isGivenUp()) return;
+  AtlasOutput& of = run->outputs[output];
+  absl::StatusOr<CodedPicture> coded = of.video->codeNext(video_encoders_, bytes_);
+  if (!coded.ok()) return publisher_.giveUp(*run, coded.status());
+  links_.metrics.encoded_bytes.add(static_cast<double>(coded->bytes->size()));
+  links_.metrics.bands_encoded.add();
+  links_.metrics.video_pictures.add();
+  of.atlas->put(coded->picture, std::move(coded->bytes));
+  if (coded->is_next_ready) pushCoding(run, output);
+  finishRows(run, run->picture->layout->imageSize().height);
 }
 
 void EncodePool::pack(const EncodeTask& task, BandEncoder& encoder) {
@@ -131,6 +196,7 @@ void EncodePool::encode(const EncodeTask& task, const StripPixels& strip, BandEn
   AtlasRun& run = *task.batch->run;
   const PackedPlane& packed = run.packs[task.pack];
   AtlasOutput& output = run.outputs[packed.output];
+  if (output.video && isColor(packed.plane)) return putIntoVideo(task.batch->run, task, strip);
   const EncodingSpec& encoding = output.display->encoding;
   const BandPixels pixels = strip.pixels(packed.plane);
   const uint32_t band_rows = output.band_row_count;
@@ -141,7 +207,7 @@ void EncodePool::encode(const EncodeTask& task, const StripPixels& strip, BandEn
     const uint32_t in_band = row % band_rows;
     const uint32_t rows_of_band = std::min(band_rows, pixels.row_count - (row - in_band));
     const uint32_t index = strip.image * output.bands_per_image + slice.first_row / band_rows;
-    const size_t band = packed.rank * output.bands_per_plane + index;
+    const size_t band = output.firstBandOf(packed.rank) + index;
     EncodedBand encoded = encoder.encode(slice, encoding, *run.picture->layout);
     links_.metrics.encoded_bytes.add(static_cast<double>(encoded.bytes->size()));
     SharedBytes bytes = run.sliced_bands.add(

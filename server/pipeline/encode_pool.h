@@ -8,6 +8,7 @@
 
 #include "base/byte_pool.h"
 #include "encode/band_encoder.h"
+#include "encode/video_encoders.h"
 #include "pipeline/atlas_publisher.h"
 #include "pipeline/encode_queue.h"
 
@@ -16,8 +17,9 @@ namespace viewloom {
 // Thread-safety: all methods may be called from any thread.
 class EncodePool {
  public:
+  // `video_thread_count`: threads that code a picture of a video together.
   EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, FairShares& shares,
-             uint32_t thread_count);
+             uint32_t thread_count, uint32_t video_thread_count);
   ~EncodePool() { stop(); }
 
   // Finished by as many threads as come free, then packed by them.
@@ -33,12 +35,18 @@ class EncodePool {
   void serve(const EncodeTask& task, BandEncoder& encoder);
   void pack(const EncodeTask& task, BandEncoder& encoder);
   void encode(const EncodeTask& task, const StripPixels& strip, BandEncoder& encoder);
+  void putIntoVideo(const AtlasRunPtr& run, const EncodeTask& task, const StripPixels& strip);
+  void pushCoding(const AtlasRunPtr& run, size_t output);
+  void codePicture(const AtlasRunPtr& run, size_t output);
+  void finishRows(const AtlasRunPtr& run, uint32_t row_count);
   void note(const EncodeTask& task, int64_t duration_ns);
   void finish(EncodeTask task);
 
   const PipelineLinks& links_;
   AtlasPublisher& publisher_;
   BytePool bytes_;
+  BytePool planes_;  // of pictures that wait to be coded
+  VideoEncoders video_encoders_;
   EncodeQueue tasks_;
   std::vector<std::jthread> threads_;  // last: they use all of the above
 };

@@ -33,6 +33,13 @@ void EncodeQueue::push(StripBatchPtr batch) {
   noteFilled();
 }
 
+void EncodeQueue::pushFirst(StripBatchPtr batch) {
+  std::lock_guard lock(mutex_);
+  if (batch->run->isGivenUp()) return;
+  batches_.insert(batches_.begin(), std::move(batch));
+  noteFilled();
+}
+
 // Whoever takes something wakes the next thread for what is left, from where it runs itself. Woken
 // all at once, two threads were put on one core of two in every fifth atlas, and stayed there for
 // as long as it took.
@@ -84,6 +91,9 @@ std::optional<EncodeTask> EncodeQueue::take() {
   if (batch->next_piece < batch->work->shape.piece_count) {
     task.index = batch->next_piece++;
     task.predicted_ns = batch->work->shape.piece_ns;
+    const StripWorkShape& shape = batch->work->shape;
+    const bool is_over = shape.strip_count == 0 && batch->next_piece == shape.piece_count;
+    if (is_over) std::erase(batches_, batch);
   } else {
     takePack(task);
   }

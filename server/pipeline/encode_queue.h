@@ -62,6 +62,10 @@ class EncodeQueue {
 
   // Dropped once the queue is closed.
   void push(StripBatchPtr batch);
+  // Work that others wait for goes before all that is inside of the same claim. Also once the queue
+  // is closed, from a thread that will pop again.
+  void pushFirst(StripBatchPtr batch);
+  PackCosts& packCosts() { return pack_costs_; }
   // Waits for something to do. Empty once the queue is closed and everything in it is done.
   std::optional<EncodeTask> pop();
   // A piece that was popped is made.

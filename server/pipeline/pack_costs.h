@@ -20,9 +20,12 @@ class PackCosts {
   void note(const EncodingSpec& encoding, AtlasPlane plane, uint64_t px_count, int64_t time_ns) {
     estimates_[placeOf(encoding, plane)].note(px_count, time_ns);
   }
+  // Time to code a picture of a video. Its planes were packed before, as kH264.
+  int64_t predictCodingNs(uint64_t px_count) const { return coding_.predictNs(px_count); }
+  void noteCoding(uint64_t px_count, int64_t time_ns) { coding_.note(px_count, time_ns); }
 
  private:
-  static constexpr size_t kEncodings = 4;
+  static constexpr size_t kEncodings = kBandEncodingCount;
   static constexpr double kStart_ns = 20;  // a px
 
   static size_t placeOf(const EncodingSpec& encoding, AtlasPlane plane) {
@@ -35,6 +38,7 @@ class PackCosts {
 
   std::array<CostEstimate, 2 * kEncodings> estimates_ =
       all(std::make_index_sequence<2 * kEncodings>());
+  CostEstimate coding_{kStart_ns};
 };
 
 }  // namespace viewloom

@@ -41,10 +41,10 @@ absl::StatusOr<PicturePtr> PictureCache::get(const ActiveDisplay& display,
   }
   bool is_new = entry.layout == nullptr || entry.defaults != source.defaults || entry.eyes != eyes;
   if (is_new) {
-    VIEWLOOM_RETURN_IF_ERROR(layOut(display.spec, source.defaults, eyes, entry));
+    VIEWLOOM_RETURN_IF_ERROR(layOut(display, source.defaults, eyes, entry));
   }
   if (moveFocus(display.spec, source, entry)) {
-    VIEWLOOM_RETURN_IF_ERROR(layOut(display.spec, source.defaults, eyes, entry));
+    VIEWLOOM_RETURN_IF_ERROR(layOut(display, source.defaults, eyes, entry));
     is_new = true;
   }
   if (!is_new && is_aimed) return entry.jobs.front();
@@ -70,14 +70,16 @@ std::shared_ptr<PictureCache::Entry> PictureCache::entryOf(const std::string& pi
   return entry;
 }
 
-absl::Status PictureCache::layOut(const DisplaySpec& spec, const StreamDefaults& defaults,
+absl::Status PictureCache::layOut(const ActiveDisplay& display, const StreamDefaults& defaults,
                                   const EyePosesPtr& eyes, Entry& entry) const {
+  const DisplaySpec& spec = display.spec;
   VIEWLOOM_RETURN_IF_ERROR(validateAtlasLimits(spec, limits_));
   absl::StatusOr<AtlasLayout> made =
       entry.focal_distance_m
           ? makeAtlasLayout(*withFocalDistance(spec, *entry.focal_distance_m), defaults, eyes.get())
           : makeAtlasLayout(spec, defaults, eyes.get());
   if (!made.ok()) return made.status();
+  if (display.encoding.color == BandEncoding::kH264) VIEWLOOM_RETURN_IF_ERROR(stackViews(*made));
   entry.layout = std::make_shared<const AtlasLayout>(*std::move(made));
   return absl::OkStatus();
 }

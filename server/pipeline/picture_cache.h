@@ -45,7 +45,7 @@ class PictureCache {
   };
 
   std::shared_ptr<Entry> entryOf(const std::string& picture_key);
-  absl::Status layOut(const DisplaySpec& spec, const StreamDefaults& defaults,
+  absl::Status layOut(const ActiveDisplay& display, const StreamDefaults& defaults,
                       const EyePosesPtr& eyes, Entry& entry) const;
   static bool moveFocus(const DisplaySpec& spec, const ResidentStructure& source, Entry& entry);
 

@@ -43,7 +43,7 @@ struct Pipeline::Loops {
                           [this](const std::exception& error) { fail(error); })),
         engine_wake_ups(links.engines.all.size()),
         publisher(links, [this](const AtlasRun& run) { noteComplete(run); }),
-        encoders(links, publisher, shares, options.encode_thread_count),
+        encoders(links, publisher, shares, options.encode_thread_count, options.video_thread_count),
         board(links.clock, shares, links.engines.all.size()),
         pictures(options.atlas_limits),
         plans(links.engines),

@@ -16,6 +16,7 @@ namespace viewloom {
 
 struct PipelineOptions {
   uint32_t encode_thread_count = 2;
+  uint32_t video_thread_count = 1;          // that code one picture of a video together
   uint32_t structure_slots_per_stream = 2;  // >= 2: one is traced while the next is built
   AtlasLimits atlas_limits;
 };

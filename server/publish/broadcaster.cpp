@@ -88,7 +88,7 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
     std::shared_ptr<Subscriber> subscriber, EyeTrackPtr eyes) {
   VIEWLOOM_CHECK(isTracked(spec) == (eyes != nullptr));
   // A stream's name holds no blank, so that the parts cannot run into each other.
-  std::string picture_key = strCat(stream, " ", displayKey(spec));
+  std::string picture_key = strCat(stream, " ", displayKey(spec), arrangementKey(encoding));
   if (eyes != nullptr) picture_key += strCat("of ", state_->takeId(), " ");
   const std::string key = strCat(picture_key, encodingKey(encoding));
   const ActiveDisplay display{.stream = stream,

@@ -10,6 +10,7 @@ namespace viewloom {
 absl::Status AskedPicture::open(const v1::OpenDisplay& request, const AtlasLimits& limits) {
   VIEWLOOM_RETURN_IF_ERROR(setDisplay(request.display(), limits));
   encoding_proto_ = request.encoding();
+  accepted_ = request.accepted();
   return settleEncoding();
 }
 
@@ -31,9 +32,10 @@ absl::Status AskedPicture::setDisplay(const v1::Display& proto, const AtlasLimit
 
 // The display decides values that are left open.
 absl::Status AskedPicture::settleEncoding() {
-  const absl::StatusOr<EncodingSpec> encoding = encodingFromProto(encoding_proto_, display_);
+  const absl::StatusOr<EncodingSpec> encoding =
+      chooseEncoding(encoding_proto_, accepted_, display_);
   if (encoding.ok()) encoding_ = *encoding;
-  return withFieldPrefix(encoding.status(), "encoding");
+  return encoding.status();
 }
 
 }  // namespace viewloom

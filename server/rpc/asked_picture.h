@@ -6,6 +6,7 @@
 
 #include "display/atlas_layout.h"
 #include "display/display_spec.h"
+#include "messages/accepted_encoding.h"
 #include "viewloom/v1/display_service.pb.h"
 
 namespace viewloom {
@@ -26,6 +27,7 @@ class AskedPicture {
 
   DisplaySpec display_;
   v1::AtlasEncoding encoding_proto_;  // as it was asked for
+  AcceptedEncodings accepted_;
   EncodingSpec encoding_;
 };
 

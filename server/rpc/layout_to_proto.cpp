@@ -2,6 +2,7 @@
 #include "rpc/layout_to_proto.h"
 
 #include "base/check.h"
+#include "video/h264_parameters.h"
 
 namespace viewloom {
 
@@ -54,6 +55,8 @@ v1::BandEncoding bandEncodingToProto(BandEncoding encoding) {
       return v1::BAND_ENCODING_ZSTD;
     case BandEncoding::kRaw:
       return v1::BAND_ENCODING_RAW;
+    case BandEncoding::kH264:
+      return v1::BAND_ENCODING_H264;
   }
   VIEWLOOM_CHECK(false && "unknown BandEncoding");
   return v1::BAND_ENCODING_UNSPECIFIED;
@@ -68,25 +71,29 @@ v1::AtlasEncoding encodingToProto(const EncodingSpec& encoding) {
   proto.set_with_depth(encoding.with_depth);
   proto.set_with_mask(encoding.with_mask);
   proto.set_planes(bandEncodingToProto(encoding.planes));
+  if (encoding.color != BandEncoding::kH264) return proto;
+  proto.set_prediction(v1::PREDICTION_WITHIN_ATLAS);
+  proto.set_video_qp(encoding.video_qp);
   return proto;
 }
 
 v1::AtlasLayout gridToProto(const AtlasLayout& layout) {
   v1::AtlasLayout proto;
-  *proto.mutable_size() = sizeToProto(layout.size_px);
-  proto.set_columns(layout.columns);
-  proto.set_rows(layout.rows);
-  *proto.mutable_tile_size() = sizeToProto(layout.tile_size_px);
-  proto.set_order(layout.order == TileOrder::kBottomLeft ? v1::TILE_ORDER_BOTTOM_LEFT
-                                                         : v1::TILE_ORDER_TOP_LEFT);
+  const TileArrangementPx shown = layout.shown();
+  *proto.mutable_size() = sizeToProto(shown.size_px);
+  proto.set_columns(shown.columns);
+  proto.set_rows(shown.rows);
+  *proto.mutable_tile_size() = sizeToProto(shown.tile_size_px);
+  proto.set_order(shown.order == TileOrder::kBottomLeft ? v1::TILE_ORDER_BOTTOM_LEFT
+                                                        : v1::TILE_ORDER_TOP_LEFT);
   proto.set_aspect(layout.aspect);
   proto.set_view_count(static_cast<uint32_t>(layout.views.size()));
-  proto.set_padding_right_px(layout.padding_right_px);
-  proto.set_padding_top_px(layout.padding_top_px);
+  proto.set_padding_right_px(shown.padding_right_px);
+  proto.set_padding_top_px(shown.padding_top_px);
   proto.set_view_cone_rad(layout.view_cone_rad);
   proto.set_focal_distance_m(layout.focal_distance_m);
   proto.set_suffix(layout.suffix);
-  proto.set_image_count(layout.image_count);
+  proto.set_image_count(shown.image_count);
   return proto;
 }
 
@@ -105,12 +112,26 @@ v1::DepthCodes depthCodesToProto(const AtlasLayout& layout) {
   return proto;
 }
 
+v1::VideoStack stackToProto(const VideoStack& stack) {
+  v1::VideoStack proto;
+  proto.set_picture_count(stack.picture_count);
+  *proto.mutable_picture_size() = sizeToProto(stack.pictureSize());
+  proto.set_columns(stack.columns);
+  proto.set_rows(stack.rows);
+  *proto.mutable_cell_size() = sizeToProto(stack.cell_px);
+  proto.set_codec_string(codedVideoString(stack.pictureSize()));
+  proto.set_color_matrix(v1::COLOR_MATRIX_BT601);
+  proto.set_full_range(true);
+  return proto;
+}
+
 }  // namespace
 
 v1::AtlasLayout layoutToProto(const AtlasLayout& layout, const EncodingSpec& encoding) {
   v1::AtlasLayout proto = gridToProto(layout);
   *proto.mutable_encoding() = encodingToProto(encoding);
   if (layout.depth_codes) *proto.mutable_depth_codes() = depthCodesToProto(layout);
+  if (layout.stack) *proto.mutable_video() = stackToProto(*layout.stack);
   for (const View& view : layout.views) *proto.add_views() = cameraToProto(view.camera);
   return proto;
 }

@@ -32,15 +32,16 @@ json streamJson(const StreamEntry& entry, uint32_t subscriber_count) {
 }  // namespace
 
 json layoutJson(const AtlasLayout& layout) {
-  return {{"size", sizeJson(layout.size_px)},
-          {"columns", layout.columns},
-          {"rows", layout.rows},
-          {"tile_size", sizeJson(layout.tile_size_px)},
-          {"order", layout.order == TileOrder::kBottomLeft ? "BOTTOM_LEFT" : "TOP_LEFT"},
+  const TileArrangementPx shown = layout.shown();
+  return {{"size", sizeJson(shown.size_px)},
+          {"columns", shown.columns},
+          {"rows", shown.rows},
+          {"tile_size", sizeJson(shown.tile_size_px)},
+          {"order", shown.order == TileOrder::kBottomLeft ? "BOTTOM_LEFT" : "TOP_LEFT"},
           {"aspect", layout.aspect},
           {"view_count", layout.views.size()},
-          {"padding_right_px", layout.padding_right_px},
-          {"padding_top_px", layout.padding_top_px},
+          {"padding_right_px", shown.padding_right_px},
+          {"padding_top_px", shown.padding_top_px},
           {"view_cone_rad", layout.view_cone_rad},
           {"cone_begin", layout.cone_begin},
           {"cone_end", layout.cone_end},

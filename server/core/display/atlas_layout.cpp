@@ -52,8 +52,25 @@ abi::DepthScale scaleOf(const DepthCodes& codes) {
           .code_max = float(codes.codeMax())};
 }
 
+TileArrangementPx AtlasLayout::shown() const {
+  if (stack) return unstacked;
+  return {.size_px = size_px,
+          .columns = columns,
+          .rows = rows,
+          .tile_size_px = tile_size_px,
+          .order = order,
+          .padding_right_px = padding_right_px,
+          .padding_top_px = padding_top_px,
+          .image_count = image_count};
+}
+
 TileOrigin AtlasLayout::tileOrigin(uint32_t view) const {
   VIEWLOOM_DCHECK(view < views.size());
+  if (order == TileOrder::kStacked) {
+    const StackCell cell = stack->cellOf(view);
+    return {.x_px = cell.column * tile_size_px.width,
+            .y_px = (cell.picture * stack->rows + cell.row) * tile_size_px.height};
+  }
   const uint32_t row = view / columns;
   const uint32_t row_from_top = order == TileOrder::kTopLeft ? row : rows - 1 - row;
   return {.x_px = view % columns * tile_size_px.width,
@@ -68,6 +85,11 @@ double AtlasLayout::distanceOf(double plane_m, const View& view) const {
 uint32_t AtlasLayout::viewAt(uint32_t column, uint32_t row_from_top) const {
   const auto none = static_cast<uint32_t>(views.size());
   if (column >= columns || row_from_top >= rows) return none;
+  if (order == TileOrder::kStacked) {
+    return stack->viewAt({.picture = row_from_top / stack->rows,
+                          .column = column,
+                          .row = row_from_top % stack->rows});
+  }
   const uint32_t row = order == TileOrder::kTopLeft ? row_from_top : rows - 1 - row_from_top;
   return std::min(row * columns + column, none);
 }
@@ -116,6 +138,25 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const Strea
         "a field of view, or a focal distance");
   }
   return layout;
+}
+
+absl::Status stackViews(AtlasLayout& layout) {
+  VIEWLOOM_CHECK(!layout.stack && std::holds_alternative<PinholeRays>(layout.rays));
+  const absl::StatusOr<VideoStack> planned =
+      planVideoStack(layout.tile_size_px, uint32_t(layout.views.size()));
+  VIEWLOOM_RETURN_IF_ERROR(planned.status());
+  const SizePx picture_px = planned->pictureSize();
+  layout.unstacked = layout.shown();
+  layout.stack = *planned;
+  layout.size_px = {picture_px.width, picture_px.height * planned->picture_count};
+  layout.columns = planned->columns;
+  layout.rows = planned->rows * planned->picture_count;
+  layout.tile_size_px = planned->cell_px;
+  layout.order = TileOrder::kStacked;
+  layout.padding_right_px = 0;
+  layout.padding_top_px = 0;
+  layout.image_count = planned->picture_count;
+  return absl::OkStatus();
 }
 
 TileGrid tileGridOf(const DisplaySpec& spec) {

@@ -11,6 +11,7 @@
 #include "base/status.h"
 #include "display/display_spec.h"
 #include "display/lens.h"
+#include "display/video_stack.h"
 #include "frame/stage_times.h"
 #include "shared/depth_scale.h"
 
@@ -72,6 +73,18 @@ struct DepthCodes {
 // Scale of the codes, for kernels that write them.
 abi::DepthScale scaleOf(const DepthCodes& codes);
 
+// Arrangement of tiles in an atlas.
+struct TileArrangementPx {
+  SizePx size_px;
+  uint32_t columns = 1;
+  uint32_t rows = 1;
+  SizePx tile_size_px;
+  TileOrder order = TileOrder::kTopLeft;
+  uint32_t padding_right_px = 0;
+  uint32_t padding_top_px = 0;
+  uint32_t image_count = 1;
+};
+
 // A grid of equal tiles. Only `order` says where each view is.
 struct AtlasLayout {
   SizePx size_px;
@@ -100,7 +113,12 @@ struct AtlasLayout {
   // Number of images of equal height, one below the other. Each is encoded on its own.
   uint32_t image_count = 1;
   std::optional<DepthCodes> depth_codes;  // RGBD displays
+  // Views of a video lie in the pictures of a stack, each of which is an image of this layout.
+  std::optional<VideoStack> stack;
+  TileArrangementPx unstacked;  // with a stack: what clients make of it
 
+  // The arrangement that the display asks for, and that clients show.
+  TileArrangementPx shown() const;
   SizePx imageSize() const { return {size_px.width, size_px.height / image_count}; }
 
   TileOrigin tileOrigin(uint32_t view) const;
@@ -144,6 +162,9 @@ struct AtlasLimits {
 // Display. `eyes` are those of a tracked display; nullptr if none came yet.
 absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const StreamDefaults& defaults,
                                             const EyePoses* eyes = nullptr);
+// Moves the views from the arrangement that the display asks for into a stack. Expects a layout of
+// pinholes without one. RESOURCE_EXHAUSTED if a view is too large for video.
+absl::Status stackViews(AtlasLayout& layout);
 // Tiles of a display, without a stream. Expects a completed spec.
 TileGrid tileGridOf(const DisplaySpec& spec);
 // Number of rays that an atlas takes, without gathered and reflected rays.
@@ -151,7 +172,9 @@ int64_t rayCount(const DisplaySpec& spec);
 // Checks sizes and counts before anything is allocated. Needs no stream.
 absl::Status validateAtlasLimits(const DisplaySpec& spec, const AtlasLimits& limits);
 
-// Rows of a band: 8 MCU rows, so that restart markers run on from band to band.
+// Rows of a band: 8 MCU rows, so that restart markers run on from band to band. Colour of a video
+// has one band an image; this is then the height of what is packed at a time, and of other planes'
+// bands.
 uint32_t bandRowCount(const EncodingSpec& encoding);
 
 }  // namespace viewloom

@@ -6,6 +6,7 @@
 namespace viewloom {
 
 ColorForm directForm(const EncodingSpec& encoding) {
+  if (encoding.color == BandEncoding::kH264) return ColorForm::kYcbcr420;
   if (encoding.color != BandEncoding::kJpeg) return ColorForm::kRgba;
   return encoding.chroma == Chroma::k420 ? ColorForm::kYcbcr420 : ColorForm::kYcbcr444;
 }

@@ -13,8 +13,8 @@ namespace viewloom {
 // kRgba: uint8_t[row][x][4] R, G, B, 255. The others: planes as JPEG takes them (YcbcrLayout).
 enum class ColorForm : uint8_t { kRgba, kYcbcr444, kYcbcr420 };
 
-// Form that costs an encoder the least. Every encoder also takes kRgba, with the same result to the
-// byte.
+// Form that costs an encoder the least. Encoders of JPEG and lossless bands also take kRgba, with
+// the same result to the byte. Video takes this form alone.
 ColorForm directForm(const EncodingSpec& encoding);
 
 // Y, Cb and Cr of an image, one plane after the other, uint8_t[row][stride]. Rows are padded to

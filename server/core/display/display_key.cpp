@@ -98,12 +98,17 @@ std::string displayKey(const DisplaySpec& spec) {
   return key.take();
 }
 
+std::string arrangementKey(const EncodingSpec& encoding) {
+  return encoding.color == BandEncoding::kH264 ? "stacked " : "";
+}
+
 std::string encodingKey(const EncodingSpec& encoding) {
   KeyText key;
   key.add(static_cast<uint32_t>(encoding.color));
   const bool is_jpeg = encoding.color == BandEncoding::kJpeg;
   if (is_jpeg || encoding.color == BandEncoding::kJpegPlanes) key.add(encoding.jpeg_quality);
   if (is_jpeg) key.add(static_cast<uint32_t>(encoding.chroma));
+  if (encoding.color == BandEncoding::kH264) key.add(encoding.video_qp);
   key.add(static_cast<uint32_t>(encoding.with_depth));
   key.add(static_cast<uint32_t>(encoding.with_mask));
   key.add(static_cast<uint32_t>(encoding.with_depth_codes));

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "display/display_spec.h"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 #include "base/check.h"
 #include "base/str_cat.h"
 #include "display/atlas_layout.h"
+#include "display/video_stack.h"
 
 namespace viewloom {
 namespace {
@@ -21,6 +24,34 @@ absl::Status checkFocusFollowing(const DisplaySpec& spec) {
       "focus_following_s",
       "this display has no focal plane that could follow the content; accepted is a quilt, stereo "
       "without given or tracked eyes, a grid of cameras or a lenticular panel");
+}
+
+struct MatchedQp {
+  uint32_t jpeg_quality;
+  uint32_t qp;
+};
+// Measured on the built-in scene (tests/performance.md).
+constexpr MatchedQp kMatchedQps[] = {{1, 51},  {10, 44}, {25, 38}, {50, 32}, {60, 30},
+                                     {75, 27}, {85, 24}, {90, 21}, {95, 15}, {100, 8}};
+
+absl::Status refuseVideo(std::string_view what, std::string_view problem) {
+  return invalidField("color", strCat("H264 is for views, and ", what, " ", problem,
+                                      "; accepted are JPEG, JPEG_PLANES, ZSTD or RAW"));
+}
+
+absl::Status validateVideoOf(const DisplaySpec& spec) {
+  if (std::holds_alternative<LenticularSpec>(spec.kind)) {
+    return refuseVideo("a lenticular panel", "has another view in each subpixel");
+  }
+  if (std::holds_alternative<IntegralSpec>(spec.kind)) {
+    return refuseVideo("a panel behind microlenses", "has another view in each pixel");
+  }
+  if (std::holds_alternative<RgbdSpec>(spec.kind)) {
+    return refuseVideo("an RGBD display", "has depth, which video would change");
+  }
+  const TileGrid grid = tileGridOf(spec);
+  const absl::Status planned = planVideoStack(grid.tile_size_px, grid.view_count).status();
+  return planned.ok() ? planned : withFieldPrefix(planned, "color");
 }
 
 // A visitor that notes the range of every number.
@@ -117,13 +148,26 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
 
 absl::Status validateEncodingSpec(const EncodingSpec& encoding) {
   VIEWLOOM_RETURN_IF_ERROR(checkRange(encoding.jpeg_quality, {1, 100}, "jpeg_quality"));
-  if (encoding.planes == BandEncoding::kJpeg || encoding.planes == BandEncoding::kJpegPlanes) {
-    return invalidField("planes", "JPEG would change depth and mask; accepted is ZSTD or RAW");
+  VIEWLOOM_RETURN_IF_ERROR(checkRange(encoding.video_qp, {1, 51}, "video_qp"));
+  if (encoding.planes == BandEncoding::kZstd || encoding.planes == BandEncoding::kRaw) {
+    return absl::OkStatus();
   }
-  return absl::OkStatus();
+  return invalidField("planes",
+                      "JPEG and H264 would change depth and mask; accepted is ZSTD or RAW");
+}
+
+uint32_t matchedVideoQp(uint32_t jpeg_quality) {
+  const MatchedQp* const above =
+      std::ranges::lower_bound(kMatchedQps, jpeg_quality, {}, &MatchedQp::jpeg_quality);
+  if (above == std::begin(kMatchedQps)) return above->qp;
+  if (above == std::end(kMatchedQps)) return std::rbegin(kMatchedQps)->qp;
+  const MatchedQp& below = *(above - 1);
+  const uint32_t span = above->jpeg_quality - below.jpeg_quality;
+  return below.qp - (below.qp - above->qp) * (jpeg_quality - below.jpeg_quality) / span;
 }
 
 absl::Status validateEncodingOf(const DisplaySpec& spec, const EncodingSpec& encoding) {
+  if (encoding.color == BandEncoding::kH264) return validateVideoOf(spec);
   const bool shares_chroma =
       encoding.color == BandEncoding::kJpeg && encoding.chroma == Chroma::k420;
   if (!shares_chroma || tileGridOf(spec).rays_per_px == 1) return absl::OkStatus();

@@ -73,8 +73,10 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec);
 // plane, or a plane that cannot move.
 std::optional<DisplaySpec> withFocalDistance(DisplaySpec spec, double focal_distance_m);
 
-// Packing of a band. kJpegPlanes: red, green and blue as one grey JPEG each.
-enum class BandEncoding : uint8_t { kJpeg, kJpegPlanes, kZstd, kRaw };
+// Packing of a band. kJpegPlanes: red, green and blue as one grey JPEG each. kH264: one picture of
+// a stack (video_stack.h).
+enum class BandEncoding : uint8_t { kJpeg, kJpegPlanes, kZstd, kRaw, kH264 };
+inline constexpr size_t kBandEncodingCount = 5;
 enum class Chroma : uint8_t { k420, k444 };
 
 // Packing of the atlas.
@@ -86,14 +88,20 @@ struct EncodingSpec {
   bool with_mask = false;
   bool with_depth_codes = false;              // displays with 16-bit depth need them
   BandEncoding planes = BandEncoding::kZstd;  // kZstd or kRaw
+  uint32_t video_qp = 24;                     // quantisation of kH264, 1..51
 
   bool operator==(const EncodingSpec&) const = default;
 };
 
+// Quantisation of H.264 whose error is at most that of a JPEG of this quality, 1..100.
+uint32_t matchedVideoQp(uint32_t jpeg_quality);
+
 // Checks an encoding. Errors name the field as in proto AtlasEncoding.
 absl::Status validateEncodingSpec(const EncodingSpec& encoding);
 // Checks that an encoding keeps the picture of a display whole. Shared chroma mixes the pictures
-// that neighbouring subpixels of a lenticular panel show to different eyes.
+// that neighbouring subpixels of a lenticular panel show to different eyes. Video takes views,
+// which neither lenses nor depth beside colour are. RESOURCE_EXHAUSTED for views too large for
+// video.
 absl::Status validateEncodingOf(const DisplaySpec& spec, const EncodingSpec& encoding);
 
 // Keys of completed specs. The same key means the same picture from the same stream, which is
@@ -101,5 +109,8 @@ absl::Status validateEncodingOf(const DisplaySpec& spec, const EncodingSpec& enc
 // quality of lossless colour.
 std::string displayKey(const DisplaySpec& spec);
 std::string encodingKey(const EncodingSpec& encoding);
+// Key of the arrangement in which an encoding takes the views. Different arrangements of one
+// display are rendered apart.
+std::string arrangementKey(const EncodingSpec& encoding);
 
 }  // namespace viewloom

@@ -25,7 +25,8 @@ namespace viewloom {
 struct AtlasLayout;
 struct StreamDefaults;
 
-enum class TileOrder : uint8_t { kBottomLeft, kTopLeft };
+// kStacked: as AtlasLayout::stack says; no display asks for it.
+enum class TileOrder : uint8_t { kBottomLeft, kTopLeft, kStacked };
 inline constexpr Word<TileOrder> kTileOrders[] = {{"BOTTOM_LEFT", TileOrder::kBottomLeft},
                                                   {"TOP_LEFT", TileOrder::kTopLeft}};
 

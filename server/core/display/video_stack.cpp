@@ -22,9 +22,9 @@ uint32_t evenSide(uint32_t side_px) {
 }
 
 // Columns of a picture with so many cells: as few empty cells as can be, then the squarest.
-uint32_t columnsFor(uint32_t cell_count, SizePx cell_px, SizePx picture_max_px) {
-  const uint32_t columns_max = std::min(picture_max_px.width / cell_px.width, cell_count);
-  const uint32_t rows_max = picture_max_px.height / cell_px.height;
+uint32_t columnsFor(uint32_t cell_count, SizePx cell_px) {
+  const uint32_t columns_max = std::min(kVideoPictureMax_px.width / cell_px.width, cell_count);
+  const uint32_t rows_max = kVideoPictureMax_px.height / cell_px.height;
   uint32_t best = 0;
   uint64_t best_empty = 0;
   uint64_t best_side_px = 0;
@@ -45,9 +45,9 @@ uint32_t columnsFor(uint32_t cell_count, SizePx cell_px, SizePx picture_max_px) 
 }
 
 // Cells of a picture at most.
-uint32_t cellCountMax(SizePx cell_px, SizePx picture_max_px) {
+uint32_t cellCountMax(SizePx cell_px) {
   const uint32_t fitting =
-      picture_max_px.width / cell_px.width * (picture_max_px.height / cell_px.height);
+      kVideoPictureMax_px.width / cell_px.width * (kVideoPictureMax_px.height / cell_px.height);
   const auto aimed = uint32_t(std::max<uint64_t>(kPictureAim_px / cell_px.area(), 1));
   return std::min(fitting, aimed);
 }
@@ -66,23 +66,23 @@ uint32_t VideoStack::viewAt(const StackCell& cell) const {
 
 // Counts of pictures from the least one to twice as many are tried. The one with the fewest empty
 // cells is taken.
-absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count,
-                                          SizePx picture_max_px) {
+absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count) {
   VideoStack stack{.view_count = view_count,
                    .cell_px = {evenSide(view_px.width), evenSide(view_px.height)}};
-  if (stack.cell_px.width > picture_max_px.width || stack.cell_px.height > picture_max_px.height) {
-    return absl::ResourceExhaustedError(strCat("a view has ", view_px.width, "x", view_px.height,
-                                               " px; accepted for video are views of up to ",
-                                               picture_max_px.width, "x", picture_max_px.height,
-                                               " px. Choose smaller views, or color as JPEG"));
+  if (stack.cell_px.width > kVideoPictureMax_px.width ||
+      stack.cell_px.height > kVideoPictureMax_px.height) {
+    return absl::ResourceExhaustedError(
+        strCat("a view has ", view_px.width, "x", view_px.height,
+               " px; accepted for video are views of up to ", kVideoPictureMax_px.width, "x",
+               kVideoPictureMax_px.height, " px. Choose smaller views, or color as JPEG"));
   }
-  const uint32_t cell_max = cellCountMax(stack.cell_px, picture_max_px);
+  const uint32_t cell_max = cellCountMax(stack.cell_px);
   const uint32_t least =
       std::max(ceilDivide(view_count, cell_max), std::min(kPictureCountMin, view_count));
   uint64_t best_empty = UINT64_MAX;
   for (uint32_t count = least; count <= std::min(2 * least, view_count); ++count) {
     const uint32_t cell_count = ceilDivide(view_count, count);
-    const uint32_t columns = columnsFor(cell_count, stack.cell_px, picture_max_px);
+    const uint32_t columns = columnsFor(cell_count, stack.cell_px);
     if (columns == 0) continue;
     const uint32_t rows = ceilDivide(cell_count, columns);
     const uint64_t empty = uint64_t{count} * columns * rows - view_count;

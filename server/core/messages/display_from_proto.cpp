@@ -199,19 +199,33 @@ constexpr EnumRow<v1::BandEncoding, BandEncoding> kColorEncodings[] = {
     {v1::BAND_ENCODING_JPEG, BandEncoding::kJpeg},
     {v1::BAND_ENCODING_JPEG_PLANES, BandEncoding::kJpegPlanes},
     {v1::BAND_ENCODING_ZSTD, BandEncoding::kZstd},
-    {v1::BAND_ENCODING_RAW, BandEncoding::kRaw}};
+    {v1::BAND_ENCODING_RAW, BandEncoding::kRaw},
+    {v1::BAND_ENCODING_H264, BandEncoding::kH264}};
 
 constexpr EnumRow<v1::BandEncoding, BandEncoding> kPlaneEncodings[] = {
     {v1::BAND_ENCODING_UNSPECIFIED, BandEncoding::kZstd},
     {v1::BAND_ENCODING_JPEG, BandEncoding::kJpeg},
     {v1::BAND_ENCODING_JPEG_PLANES, BandEncoding::kJpegPlanes},
     {v1::BAND_ENCODING_ZSTD, BandEncoding::kZstd},
-    {v1::BAND_ENCODING_RAW, BandEncoding::kRaw}};
+    {v1::BAND_ENCODING_RAW, BandEncoding::kRaw},
+    {v1::BAND_ENCODING_H264, BandEncoding::kH264}};
 
 constexpr EnumRow<v1::ChromaSubsampling, Chroma> kChromas[] = {
     {v1::CHROMA_SUBSAMPLING_UNSPECIFIED, Chroma::k420},
     {v1::CHROMA_SUBSAMPLING_420, Chroma::k420},
     {v1::CHROMA_SUBSAMPLING_444, Chroma::k444}};
+
+// Fields of the protocol that this server does not serve.
+absl::Status refuseUnserved(const v1::AtlasEncoding& proto) {
+  if (proto.prediction() != v1::PREDICTION_UNSPECIFIED &&
+      proto.prediction() != v1::PREDICTION_WITHIN_ATLAS) {
+    return fieldError(absl::StatusCode::kUnimplemented, "prediction",
+                      "this server predicts within an atlas only; accepted is WITHIN_ATLAS");
+  }
+  if (proto.bits_per_second_max() == 0) return absl::OkStatus();
+  return fieldError(absl::StatusCode::kUnimplemented, "bits_per_second_max",
+                    "this server keeps one quantisation; accepted is 0. Give video_qp instead");
+}
 
 }  // namespace
 
@@ -225,6 +239,7 @@ absl::StatusOr<DisplaySpec> displayFromProto(const v1::Display& proto) {
 
 absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
                                                const DisplaySpec& display) {
+  VIEWLOOM_RETURN_IF_ERROR(refuseUnserved(proto));
   EncodingSpec encoding;
   const auto color = enumFromProto(proto.color(), "color", kColorEncodings);
   VIEWLOOM_RETURN_IF_ERROR(color.status());
@@ -246,6 +261,8 @@ absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
   encoding.with_depth_codes = hasDepthPlane(display);
   encoding.planes = *planes;
   if (proto.jpeg_quality() != 0) encoding.jpeg_quality = proto.jpeg_quality();
+  encoding.video_qp =
+      proto.video_qp() != 0 ? proto.video_qp() : matchedVideoQp(encoding.jpeg_quality);
   encoding.with_depth = proto.with_depth();
   encoding.with_mask = proto.with_mask();
   VIEWLOOM_RETURN_IF_ERROR(validateEncodingSpec(encoding));

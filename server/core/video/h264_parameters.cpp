@@ -208,6 +208,14 @@ uint32_t h264Level(SizePx size_px) {
   failCheck(__FILE__, __LINE__, "a picture is within level 5.1");
 }
 
+std::string codedVideoString(SizePx size_px) {
+  constexpr uint8_t kMainProfile = 77;
+  // Also a stream of the extended profile; no fields. OpenH264 sets these flags.
+  constexpr uint8_t kConstraints = 0x4C;
+  return h264CodecString(
+      {.profile = kMainProfile, .constraints = kConstraints, .level = uint8_t(h264Level(size_px))});
+}
+
 std::string h264CodecString(const H264Parameters& parameters) {
   return absl::StrFormat("avc1.%02X%02X%02X", parameters.profile, parameters.constraints,
                          parameters.level);

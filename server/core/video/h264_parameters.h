@@ -46,6 +46,9 @@ absl::StatusOr<H264Parameters> h264ParametersOf(std::span<const uint8_t> stream)
 // 5.1. Rates are not considered, as nobody knows them before.
 uint32_t h264Level(SizePx size_px);
 
+// Codec of the streams that encoders of viewloom make for such pictures: main profile.
+std::string codedVideoString(SizePx size_px);
+
 // Codec of a stream, as WebCodecs and RFC 6381 write it: "avc1.42C020".
 std::string h264CodecString(const H264Parameters& parameters);
 

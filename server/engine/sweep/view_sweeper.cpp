@@ -31,10 +31,18 @@ float cleanShare(const SweepPicture& picture, const SweepView& view, uint32_t wi
   return std::min(std::abs(eye_px_m) * picture.source.steps.inv_z_range, 1.0F);
 }
 
-// Rows of the atlas whose unused px are cleared with these rows of the plan: as many with each.
-BandRows clearedWith(const SweepPicture& picture, uint32_t first_row, uint32_t row_count) {
+// Rows of the atlas whose unused px are cleared with these rows of the plan and of the grid of
+// tiles: as many with each.
+BandRows clearedWith(const SweepPicture& picture, uint32_t first_row, uint32_t row_count,
+                     GridRows grid) {
+  const AtlasLayout& layout = *picture.job->layout;
+  const auto gridRow = [&](uint32_t row) {
+    if (row == layout.rows) return layout.size_px.height;
+    return row == 0 ? 0 : layout.padding_top_px + row * layout.tile_size_px.height;
+  };
+  const uint64_t height_px = gridRow(grid.end) - gridRow(grid.first);
   const auto atlasRow = [&](uint64_t row) {
-    return uint32_t(row * picture.job->layout->size_px.height / picture.plan->rowCount());
+    return gridRow(grid.first) + uint32_t(row * height_px / picture.plan->rowCount());
   };
   const uint32_t first = atlasRow(first_row);
   return {first, atlasRow(first_row + row_count) - first};
@@ -219,9 +227,7 @@ Coverage ViewSweeper::sweepRows(const SweepPicture& picture, uint32_t first_row,
                  .atlas = atlas,
                  .coverage = {}};
   VIEWLOOM_CHECK(picture.plan->colorForm(outputs.color) == outputs.color);
-  if (grid.first == 0) {
-    atlas.clearUnused(job, outputs, clearedWith(picture, first_row, row_count));
-  }
+  atlas.clearUnused(job, outputs, clearedWith(picture, first_row, row_count, grid));
   builder_.begin(picture.source, picture.plan->colorReach());
   if (outputs.color == ColorForm::kRgba) {
     for (uint32_t index = first_row; index < first_row + row_count; ++index) {

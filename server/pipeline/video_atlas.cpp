@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "pipeline/video_atlas.h"
+
+#include <bit>
+#include <utility>
+
+#include "base/check.h"
+
+namespace viewloom {
+
+VideoAtlas::VideoAtlas(const VideoStack& stack, uint32_t qp)
+    : picture_px_(stack.pictureSize()),
+      qp_(qp),
+      pictures_(stack.picture_count, {.planes = nullptr, .rows_left = picture_px_.height}) {}
+
+std::shared_ptr<PicturePlanes> VideoAtlas::planesOf(uint32_t picture, BytePool& pool) {
+  std::lock_guard lock(mutex_);
+  std::shared_ptr<PicturePlanes>& planes = pictures_[picture].planes;
+  if (!planes) planes = std::make_shared<PicturePlanes>(picture_px_, pool);
+  return planes;
+}
+
+bool VideoAtlas::isNextReady() const {
+  return next_ < pictures_.size() && pictures_[next_].rows_left == 0;
+}
+
+bool VideoAtlas::put(uint32_t picture, const BandPixels& rows, BytePool& pool) {
+  planesOf(picture, pool)->put(rows);
+  std::lock_guard lock(mutex_);
+  VIEWLOOM_CHECK(pictures_[picture].rows_left >= rows.row_count);
+  pictures_[picture].rows_left -= rows.row_count;
+  if (is_coding_ || !isNextReady()) return false;
+  is_coding_ = true;
+  return true;
+}
+
+absl::StatusOr<CodedPicture> VideoAtlas::codeNext(VideoEncoders& encoders, BytePool& bytes) {
+  std::shared_ptr<PicturePlanes> planes;
+  CodedPicture coded;
+  {
+    std::lock_guard lock(mutex_);
+    VIEWLOOM_CHECK(is_coding_ && isNextReady());
+    coded.picture = next_;
+    planes = std::move(pictures_[next_].planes);
+  }
+  if (!encoder_) {
+    absl::StatusOr<std::unique_ptr<VideoEncoder>> taken = encoders.take(picture_px_, qp_);
+    VIEWLOOM_RETURN_IF_ERROR(taken.status());
+    encoder_ = *std::move(taken);
+  }
+  const Reference reference = coded.picture == 0 ? Reference::kNone : Reference::kPictureBefore;
+  VIEWLOOM_RETURN_IF_ERROR(encoder_->encode(planes->video(), reference, access_unit_));
+  planes = nullptr;
+  // Sizes vary from frame to frame; powers of two let the pool's buffers settle after a few.
+  BytePool::Buffer unit = bytes.take(std::bit_ceil(access_unit_.size()));
+  unit->assign(access_unit_.begin(), access_unit_.end());
+  coded.bytes = std::move(unit);
+  if (coded.picture + 1 == pictures_.size()) encoders.putBack(std::move(encoder_));
+  std::lock_guard lock(mutex_);
+  ++next_;
+  is_coding_ = coded.is_next_ready = isNextReady();
+  return coded;
+}
+
+}  // namespace viewloom

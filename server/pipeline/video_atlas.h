@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Colour of one atlas on its way into video.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "base/byte_pool.h"
+#include "display/video_stack.h"
+#include "encode/picture_planes.h"
+#include "encode/video_encoders.h"
+
+namespace viewloom {
+
+struct CodedPicture {
+  uint32_t picture = 0;
+  SharedBytes bytes;           // an access unit
+  bool is_next_ready = false;  // codeNext() has to be called again
+};
+
+// Strips come in any order and from any thread. Pictures are coded one after the other, each once
+// all its rows are there and the one before it is coded.
+// Thread-safety: put() from any thread; codeNext() from one thread at a time, as its users are
+// told.
+class VideoAtlas {
+ public:
+  VideoAtlas(const VideoStack& stack, uint32_t qp);
+
+  uint32_t pictureCount() const { return uint32_t(pictures_.size()); }
+  // Rows of a picture, each once. True: codeNext() has to be called, by whoever is told.
+  bool put(uint32_t picture, const BandPixels& rows, BytePool& pool);
+  // Codes the next picture. After an error the atlas cannot go on.
+  absl::StatusOr<CodedPicture> codeNext(VideoEncoders& encoders, BytePool& bytes);
+
+ private:
+  struct Picture {
+    std::shared_ptr<PicturePlanes> planes;  // nullptr before its first rows, and once it is coded
+    uint32_t rows_left = 0;
+  };
+
+  std::shared_ptr<PicturePlanes> planesOf(uint32_t picture, BytePool& pool);
+  // With the lock.
+  bool isNextReady() const;
+
+  const SizePx picture_px_;
+  const uint32_t qp_;
+  std::unique_ptr<VideoEncoder> encoder_;  // from the first picture to the last; whose turn it is
+  std::vector<uint8_t> access_unit_;       // the same
+  std::mutex mutex_;
+  std::vector<Picture> pictures_;
+  uint32_t next_ = 0;  // picture to be coded
+  bool is_coding_ = false;
+};
+
+}  // namespace viewloom
