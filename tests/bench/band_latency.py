@@ -32,6 +32,7 @@ IN_WORLD = {"world_pose": DISPLAYS["quilt-in-world"]["world_pose"]}
 KINDS = {
     "swept quilt": (QUILT, {}),
     "swept quilt with depth": (QUILT, {"with_depth": True}),
+    "swept quilt as video": (QUILT, {"color": "BAND_ENCODING_H264"}),
     "walked quilt": ({**SMALL_QUILT, **IN_WORLD}, {}),
     "lens": ({**SMALL_QUILT, "effects": {"lens": LENS}}, {}),
 }

@@ -11,15 +11,24 @@ PROGRAM = sys.argv.pop()
 
 
 class BandLatency(unittest.TestCase):
-    def test_measures_one_kind(self):
+    def figures_of(self, kind):
         run = subprocess.run(
             [sys.executable, PROGRAM, BUILD, "--rounds", "1", "--frames", "3", "--warm-up", "1",
-             "--size", "320x180", "--only", "swept quilt", "--json"], capture_output=True,
+             "--size", "320x180", "--only", kind, "--json"], capture_output=True,
             text=True, check=False, timeout=600)
         self.assertEqual(run.returncode, 0, run.stderr)
         (figures,) = json.loads(run.stdout)
-        marks = [figures[f"{mark} ms"] for mark in ("first band", "last band", "end")]
+        return [figures[f"{mark} ms"] for mark in ("first band", "last band", "end")]
+
+    def test_measures_one_kind(self):
+        marks = self.figures_of("swept quilt")
         self.assertEqual(marks, sorted(marks))
+
+    # Pictures leave while others are swept.
+    def test_measures_video(self):
+        marks = self.figures_of("swept quilt as video")
+        self.assertEqual(marks, sorted(marks))
+        self.assertLess(marks[0], marks[1])
 
 
 if __name__ == "__main__":

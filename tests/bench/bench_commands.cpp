@@ -33,6 +33,7 @@
 #include "bench/targets.h"
 #include "bench/tick_bench.h"
 #include "bench/uplink.h"
+#include "bench/video_bench.h"
 #include "bench/viewloom_contestant.h"
 #include "usage/command_line.h"
 
@@ -169,6 +170,7 @@ int runBench(int argc, char** argv) {
   addMirrorsCommand(app);
   addRetimeCommand(app);
   addTicksCommand(app);
+  addVideoCommand(app);
   addQualityCommand(app);
   addPicturesCommand(app);
   if (const std::optional<int> code = app.parse(argc, argv)) return *code;

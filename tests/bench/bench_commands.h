@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The commands of viewloom-bench: `trace`, `build`, `displays`, `uplink`, `ingest`, `stereo`,
-// `knob`, `mirrors`, `retime`, `ticks`, `quality` and `pictures`.
+// `knob`, `mirrors`, `retime`, `ticks`, `video`, `quality` and `pictures`.
 #pragma once
 
 namespace viewloom::bench {

@@ -209,6 +209,20 @@ class BenchTest(unittest.TestCase):
         self.assertTrue(all(way["gb_per_s"] > 0 for way in report["ways"]))
         self.assertTrue(all(way["server_ms"] > 0 for way in report["ways"][1:]))
 
+    def test_video(self):
+        report = run("video", "--json", "--rounds", "1", "--miniature", "4")
+        still = report["loads"][0]
+        self.assertEqual(still["name"], "built-in scene, still")
+        self.assertEqual(still["pictures"], 12)
+        sizes = [coded["bytes"] for coded in still["h264"]]
+        self.assertEqual(sizes, sorted(sizes, reverse=True))
+        errors = [coded["psnr_y_db"] for coded in still["h264"]]
+        self.assertEqual(errors, sorted(errors, reverse=True))
+        # The match that the server takes is never coarser than JPEG by more than a step.
+        matched = still["h264"][len(sizes) // 2]
+        self.assertGreater(matched["psnr_y_db"], still["jpeg"]["psnr_y_db"] - 1.5)
+        self.assertGreater(still["smaller"], 1)
+
     def test_a_load_that_does_not_exist(self):
         finished = subprocess.run([PROGRAM, "trace", "--only", "no such load"],
                                   capture_output=True, text=True, check=False)

@@ -35,6 +35,7 @@ constexpr std::array kTargets = {
     FuzzTarget{"recording", fuzzRecording, recordingSeeds},
     FuzzTarget{"settings", fuzzSettings, settingsSeeds},
     FuzzTarget{"tokens", fuzzTokens, tokensSeeds},
+    FuzzTarget{"video", fuzzVideo, videoSeeds},
     FuzzTarget{"viewer", fuzzViewer, viewerSeeds},
     FuzzTarget{"zstd", fuzzZstd, zstdSeeds},
 };

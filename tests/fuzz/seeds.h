@@ -35,6 +35,7 @@ SeedBytes jpegSeeds();
 SeedBytes zstdSeeds();
 SeedBytes predictedSeeds();
 SeedBytes frameSeeds();
+SeedBytes videoSeeds();
 
 SeedBytes headerSeeds();
 SeedBytes displaySeeds();

@@ -55,5 +55,8 @@ bool fuzzEyeLine(FuzzBytes bytes);     // a line of an eye tracker
 // Messages of a server, as clients read them: the length of each in two bytes, then a
 // StreamAtlasesResponse.
 bool fuzzAtlas(FuzzBytes bytes);
+// Half the width and half the height, each less one; then the length of each picture in two bytes,
+// and an access unit of H.264.
+bool fuzzVideo(FuzzBytes bytes);
 
 }  // namespace viewloom

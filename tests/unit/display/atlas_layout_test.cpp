@@ -56,6 +56,37 @@ TEST(AtlasLayout, putsViewZeroTopLeftWhereAsked) {
   EXPECT_EQ(layout.tileOrigin(4).y_px, 10u);
 }
 
+TEST(AtlasLayout, stacksTheViewsOfAVideo) {
+  AtlasLayout layout = layoutOf({.kind = QuiltSpec{.preset = "portrait"}});
+  ASSERT_TRUE(stackViews(layout).ok());
+  EXPECT_EQ(layout.size_px, (SizePx{840, 12 * 1120}));
+  EXPECT_EQ(layout.imageSize(), (SizePx{840, 1120}));
+  EXPECT_EQ(layout.image_count, 12u);
+  EXPECT_EQ(layout.columns, 2u);
+  EXPECT_EQ(layout.rows, 24u);
+  for (uint32_t view = 0; view < 48; ++view) {
+    const TileOrigin origin = layout.tileOrigin(view);
+    EXPECT_EQ(origin.y_px / 1120, view % 12);
+    EXPECT_EQ(layout.viewAt(origin.x_px / 420, origin.y_px / 560), view);
+  }
+  const TileArrangementPx shown = layout.shown();
+  EXPECT_EQ(shown.size_px, (SizePx{3360, 3360}));
+  EXPECT_EQ(shown.columns, 8u);
+  EXPECT_EQ(shown.order, TileOrder::kBottomLeft);
+  EXPECT_EQ(shown.image_count, 1u);
+}
+
+TEST(AtlasLayout, stacksViewsOfOddSizesWithRoomAroundThem) {
+  AtlasLayout layout = layoutOf({.kind = QuiltSpec{.columns = 5, .rows = 1, .size_px = {107, 33}}});
+  const Camera camera = layout.views[3].camera;
+  ASSERT_TRUE(stackViews(layout).ok());
+  EXPECT_EQ(layout.tile_size_px, (SizePx{22, 34}));
+  EXPECT_EQ(layout.padding_right_px, 0u);
+  EXPECT_EQ(layout.shown().tile_size_px, (SizePx{21, 33}));
+  EXPECT_EQ(layout.shown().padding_right_px, 2u);
+  EXPECT_EQ(layout.views[3].camera.intrinsics.principal_px, camera.intrinsics.principal_px);
+}
+
 TEST(AtlasLayout, leavesTheRemainderAtTheRightAndTheTop) {
   const AtlasLayout layout =
       layoutOf({.kind = QuiltSpec{.columns = 5, .rows = 9, .size_px = {4096, 4097}}});

@@ -271,17 +271,5 @@ TEST_F(DifferingKeys, followFromEveryFieldThatChangesThePicture) {
   add({.kind = stereo});
 }
 
-TEST(EncodingKey, ignoresWhatDoesNotReachTheBytes) {
-  EXPECT_EQ(encodingKey({.color = BandEncoding::kZstd, .jpeg_quality = 10}),
-            encodingKey({.color = BandEncoding::kZstd, .jpeg_quality = 90}));
-  EXPECT_EQ(encodingKey({.planes = BandEncoding::kRaw}), encodingKey({}));
-  EXPECT_NE(encodingKey({.jpeg_quality = 10}), encodingKey({.jpeg_quality = 90}));
-  EXPECT_NE(encodingKey({.chroma = Chroma::k444}), encodingKey({}));
-  EXPECT_EQ(encodingKey({.color = BandEncoding::kJpegPlanes, .chroma = Chroma::k444}),
-            encodingKey({.color = BandEncoding::kJpegPlanes}));
-  EXPECT_NE(encodingKey({.color = BandEncoding::kJpegPlanes}), encodingKey({}));
-  EXPECT_NE(encodingKey({.with_mask = true}), encodingKey({.with_depth = true}));
-}
-
 }  // namespace
 }  // namespace viewloom::display_spec_test

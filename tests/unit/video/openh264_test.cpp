@@ -112,7 +112,11 @@ TEST(OpenH264, takesPicturesFromTheSmallestToTheLargest) {
   for (const SizePx size_px : {SizePx{16, 16}, SizePx{18, 16}, SizePx{4096, 2176}}) {
     const auto encoder = encoderOf({.size_px = size_px});
     const auto decoder = newDecoder();
-    for (const AccessUnit& unit : codedStack(*encoder, 2)) {
+    const std::vector<AccessUnit> units = codedStack(*encoder, 2);
+    const auto parameters = h264ParametersOf(units.front());
+    ASSERT_TRUE(parameters.ok()) << parameters.status();
+    EXPECT_EQ(h264CodecString(*parameters), codedVideoString(size_px));
+    for (const AccessUnit& unit : units) {
       const auto picture = decoder->decode(unit, size_px);
       ASSERT_TRUE(picture.ok()) << picture.status();
       EXPECT_EQ(picture->size_px, size_px);

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/video_coding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <stdexcept>
+#include <utility>
+
+#include "pipeline/video_atlas.h"
+#include "rpc/layout_to_proto.h"
+#include "shared/ycbcr.h"
+#include "support/ycbcr_planes.h"
+
+namespace viewloom::bench {
+namespace {
+
+double usedMs() {
+  timespec used{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  return double(used.tv_sec) * 1e3 + double(used.tv_nsec) * 1e-6;
+}
+
+// Rows that worker threads hand on at a time.
+constexpr uint32_t kStripRows = 128;
+
+AtlasLayout stackedOf(AtlasLayout layout) {
+  const absl::Status status = stackViews(layout);
+  if (!status.ok()) throw std::runtime_error(std::string(status.message()));
+  return layout;
+}
+
+// Copies the views into their cells. Cells that are larger repeat the last column and row.
+std::vector<uint32_t> stack(const AtlasLayout& quilt, const AtlasLayout& stacked,
+                            const std::vector<uint32_t>& rgba) {
+  constexpr uint32_t kBlack = 0xff000000;
+  std::vector<uint32_t> pixels(stacked.size_px.area(), kBlack);
+  for (uint32_t view = 0; view < quilt.views.size(); ++view) {
+    const TileOrigin from = quilt.tileOrigin(view);
+    const TileOrigin to = stacked.tileOrigin(view);
+    for (uint32_t y = 0; y < stacked.tile_size_px.height; ++y) {
+      const size_t from_row = from.y_px + std::min(y, quilt.tile_size_px.height - 1);
+      for (uint32_t x = 0; x < stacked.tile_size_px.width; ++x) {
+        const size_t column = from.x_px + std::min(x, quilt.tile_size_px.width - 1);
+        pixels[size_t{to.y_px + y} * stacked.size_px.width + to.x_px + x] =
+            rgba[from_row * quilt.size_px.width + column];
+      }
+    }
+  }
+  return pixels;
+}
+
+std::vector<uint8_t> planesOf(const std::vector<uint32_t>& rgba, SizePx size_px) {
+  return test::ycbcrPlanesOf(std::span<const uint32_t>(rgba), size_px, ColorForm::kYcbcr420);
+}
+
+double lumaOfPixel(uint32_t rgba) {
+  return abi::lumaOf(float(rgba & 0xff), float(rgba >> 8 & 0xff), float(rgba >> 16 & 0xff));
+}
+
+AtlasBand bandOf(const EncodedBand& band, v1::BandEncoding encoding) {
+  return {.image_index = band.image_index,
+          .plane = v1::ATLAS_PLANE_COLOR,
+          .first_row = band.first_row,
+          .row_count = band.row_count,
+          .encoding = encoding,
+          .bytes = std::string(band.bytes->begin(), band.bytes->end())};
+}
+
+}  // namespace
+
+VideoCoding::VideoCoding(const AtlasLayout& layout, std::vector<uint32_t> rgba)
+    : quilt_(layout),
+      stacked_(stackedOf(layout)),
+      rgba_(std::move(rgba)),
+      quilt_planes_(planesOf(rgba_, quilt_.size_px)),
+      stacked_planes_(planesOf(stack(quilt_, stacked_, rgba_), stacked_.size_px)) {}
+
+Atlas VideoCoding::emptyAtlas(const AtlasLayout& layout, const EncodingSpec& encoding) const {
+  return {.layout = std::make_shared<const v1::AtlasLayout>(layoutToProto(layout, encoding)),
+          .header = {},
+          .end = {},
+          .bands = {}};
+}
+
+// The error counts the pixels of the atlas, padding included.
+void VideoCoding::finish(const Atlas& atlas, Coded& coded) const {
+  coded.bytes = atlas.byteCount();
+  const double begun_ms = usedMs();
+  const absl::StatusOr<AtlasPicture> picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
+  coded.decode_ms = usedMs() - begun_ms;
+  if (!picture.ok()) throw std::runtime_error(std::string(picture.status().message()));
+  double sum = 0;
+  for (size_t i = 0; i < rgba_.size(); ++i) {
+    const uint8_t* const rgb = &picture->samples[3 * i];
+    const double error = lumaOfPixel(rgb[0] | uint32_t{rgb[1]} << 8 | uint32_t{rgb[2]} << 16) -
+                         lumaOfPixel(rgba_[i]);
+    sum += error * error;
+  }
+  coded.psnr_db = 10 * std::log10(255.0 * 255.0 * double(rgba_.size()) / sum);
+}
+
+Coded VideoCoding::asJpeg(uint32_t quality) {
+  const EncodingSpec encoding = {.jpeg_quality = quality};
+  const BandPixels pixels = planarPixels(quilt_planes_, quilt_.size_px, ColorForm::kYcbcr420);
+  const uint32_t band_rows = bandRowCount(encoding);
+  std::vector<EncodedBand> bands;
+  Coded coded;
+  const double begun_ms = usedMs();
+  for (uint32_t row = 0; row < pixels.row_count; row += band_rows) {
+    bands.push_back(jpeg_.encode(rowsOf(pixels, row, band_rows), encoding, quilt_));
+  }
+  coded.encode_ms = usedMs() - begun_ms;
+  Atlas atlas = emptyAtlas(quilt_, encoding);
+  for (const EncodedBand& band : bands) {
+    atlas.bands.push_back(bandOf(band, v1::BAND_ENCODING_JPEG));
+  }
+  finish(atlas, coded);
+  return coded;
+}
+
+Coded VideoCoding::asVideo(uint32_t qp) {
+  const EncodingSpec encoding = {.color = BandEncoding::kH264, .video_qp = qp};
+  const BandPixels pixels = planarPixels(stacked_planes_, stacked_.size_px, ColorForm::kYcbcr420);
+  const uint32_t height_px = stacked_.imageSize().height;
+  std::vector<EncodedBand> bands;
+  Coded coded;
+  const double begun_ms = usedMs();
+  VideoAtlas video(*stacked_.stack, qp);
+  for (uint32_t picture = 0; picture < pictureCount(); ++picture) {
+    for (uint32_t row = 0; row < height_px; row += kStripRows) {
+      BandPixels rows =
+          rowsOf(pixels, picture * height_px + row, std::min(kStripRows, height_px - row));
+      rows.first_row = row;
+      video.put(picture, rows, planes_);
+    }
+    absl::StatusOr<CodedPicture> made = video.codeNext(encoders_, bytes_);
+    if (!made.ok()) throw std::runtime_error(std::string(made.status().message()));
+    bands.push_back({.image_index = picture,
+                     .row_count = height_px,
+                     .encoding = BandEncoding::kH264,
+                     .bytes = std::move(made->bytes)});
+  }
+  coded.encode_ms = usedMs() - begun_ms;
+  Atlas atlas = emptyAtlas(stacked_, encoding);
+  for (const EncodedBand& band : bands) {
+    atlas.bands.push_back(bandOf(band, v1::BAND_ENCODING_H264));
+  }
+  finish(atlas, coded);
+  return coded;
+}
+
+}  // namespace viewloom::bench

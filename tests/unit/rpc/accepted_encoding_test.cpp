@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "messages/accepted_encoding.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "messages/display_from_proto.h"
+
+namespace viewloom::accepted_encoding_test {
+namespace {
+
+DisplaySpec displayOf(const std::string& preset) {
+  v1::Display proto;
+  proto.set_preset(preset);
+  const absl::StatusOr<DisplaySpec> spec = displayFromProto(proto);
+  EXPECT_TRUE(spec.ok()) << spec.status();
+  return spec.value_or(DisplaySpec{});
+}
+
+DisplaySpec panel() {
+  v1::Display proto;
+  proto.mutable_integral()->set_preset("near_eye_2013");
+  const absl::StatusOr<DisplaySpec> spec = displayFromProto(proto);
+  EXPECT_TRUE(spec.ok()) << spec.status();
+  return spec.value_or(DisplaySpec{});
+}
+
+AcceptedEncodings accepting(std::initializer_list<v1::BandEncoding> colors) {
+  AcceptedEncodings accepted;
+  for (const v1::BandEncoding color : colors) accepted.Add()->set_color(color);
+  return accepted;
+}
+
+TEST(AcceptedEncoding, staysJpegForClientsThatSayNothing) {
+  const auto encoding = chooseEncoding({}, {}, displayOf("portrait"));
+  ASSERT_TRUE(encoding.ok()) << encoding.status();
+  EXPECT_EQ(encoding->color, BandEncoding::kJpeg);
+}
+
+TEST(AcceptedEncoding, takesTheFirstThatServesTheDisplay) {
+  const AcceptedEncodings accepted = accepting({v1::BAND_ENCODING_H264, v1::BAND_ENCODING_JPEG});
+  const auto quilt = chooseEncoding({}, accepted, displayOf("portrait"));
+  ASSERT_TRUE(quilt.ok()) << quilt.status();
+  EXPECT_EQ(quilt->color, BandEncoding::kH264);
+  EXPECT_EQ(quilt->video_qp, matchedVideoQp(85));
+  const auto of_panel = chooseEncoding({}, accepted, panel());
+  ASSERT_TRUE(of_panel.ok()) << of_panel.status();
+  EXPECT_EQ(of_panel->color, BandEncoding::kJpeg);
+}
+
+TEST(AcceptedEncoding, keepsToTheLimitsOfADecoder) {
+  AcceptedEncodings accepted = accepting({v1::BAND_ENCODING_H264, v1::BAND_ENCODING_ZSTD});
+  accepted[0].set_level_max(30);
+  const auto by_level = chooseEncoding({}, accepted, displayOf("portrait"));
+  ASSERT_TRUE(by_level.ok()) << by_level.status();
+  EXPECT_EQ(by_level->color, BandEncoding::kZstd);
+  accepted[0].set_level_max(32);
+  EXPECT_EQ(chooseEncoding({}, accepted, displayOf("portrait"))->color, BandEncoding::kH264);
+  accepted[0].mutable_picture_size_max()->set_height(1000);
+  EXPECT_EQ(chooseEncoding({}, accepted, displayOf("portrait"))->color, BandEncoding::kZstd);
+}
+
+TEST(AcceptedEncoding, keepsToAColorThatIsAskedFor) {
+  v1::AtlasEncoding asked;
+  asked.set_color(v1::BAND_ENCODING_RAW);
+  const auto encoding =
+      chooseEncoding(asked, accepting({v1::BAND_ENCODING_H264}), displayOf("portrait"));
+  ASSERT_TRUE(encoding.ok()) << encoding.status();
+  EXPECT_EQ(encoding->color, BandEncoding::kRaw);
+}
+
+TEST(AcceptedEncoding, saysWhyNoneServes) {
+  const absl::Status refused =
+      chooseEncoding({}, accepting({v1::BAND_ENCODING_H264}), panel()).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(fieldOf(refused), "accepted");
+  EXPECT_THAT(std::string(refused.message()),
+              testing::HasSubstr("a panel behind microlenses has another view in each pixel"));
+}
+
+TEST(AcceptedEncoding, namesTheFieldOfAWrongEncoding) {
+  v1::AtlasEncoding asked;
+  asked.set_color(v1::BAND_ENCODING_H264);
+  EXPECT_EQ(fieldOf(chooseEncoding(asked, {}, panel()).status()), "encoding.color");
+  asked.set_video_qp(52);
+  EXPECT_EQ(fieldOf(chooseEncoding(asked, {}, displayOf("portrait")).status()),
+            "encoding.video_qp");
+  asked.clear_video_qp();
+  asked.set_prediction(v1::PREDICTION_ACROSS_ATLASES);
+  EXPECT_EQ(chooseEncoding(asked, {}, displayOf("portrait")).status().code(),
+            absl::StatusCode::kUnimplemented);
+}
+
+}  // namespace
+}  // namespace viewloom::accepted_encoding_test
