@@ -91,7 +91,10 @@ absl::Status checkStack(const v1::AtlasLayout& layout) {
                            picture_px.area() <= kVideoAreaMax_px &&
                            uint64_t{stack.columns()} * cell_px.width == picture_px.width &&
                            uint64_t{stack.rows()} * cell_px.height == picture_px.height;
-  if (holds_views && holds_cells) return absl::OkStatus();
+  // Small views have larger cells, but never so many.
+  constexpr uint64_t kStackAreaMax_px = uint64_t{1} << 29;
+  const bool is_bounded = picture_px.area() * stack.picture_count() <= kStackAreaMax_px;
+  if (holds_views && holds_cells && is_bounded) return absl::OkStatus();
   return absl::DataLossError("the layout has a stack of pictures that does not hold its views");
 }
 

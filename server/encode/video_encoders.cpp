@@ -11,11 +11,15 @@ namespace {
 
 // An encoder holds about 12 bytes for each pixel of a picture.
 constexpr size_t kKeptCount = 4;
+// Rows of a slice at least: each predicts anew.
+constexpr uint32_t kSliceRowsMin = 64;
 
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<VideoEncoder>> VideoEncoders::take(SizePx picture_px, uint32_t qp) {
-  const VideoFormat format = {.size_px = picture_px, .qp = qp, .thread_count = thread_count_};
+  const uint32_t slice_count_max = std::max(picture_px.height / kSliceRowsMin, 1U);
+  const VideoFormat format = {
+      .size_px = picture_px, .qp = qp, .thread_count = std::min(thread_count_, slice_count_max)};
   {
     std::lock_guard lock(mutex_);
     const auto found = std::ranges::find_if(

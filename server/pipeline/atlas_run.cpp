@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/check.h"
+
 namespace viewloom {
 namespace {
 
@@ -17,6 +19,7 @@ AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
   output.bands_per_image = ceilDivide(layout.imageSize().height, output.band_row_count);
   output.bands_per_plane = layout.image_count * output.bands_per_image;
   if (display->encoding.color == BandEncoding::kH264) {
+    VIEWLOOM_CHECK(layout.stack.has_value());
     output.video = std::make_unique<VideoAtlas>(*layout.stack, display->encoding.video_qp);
   }
   output.display = std::move(display);

@@ -133,7 +133,7 @@ class AtlasSweep final : public StripWork {
 // Images that are swept together, in order. Other atlases than stacks are swept at once: each row
 // of the source is then prepared once.
 std::vector<SweptImages> sweptImages(const AtlasLayout& layout) {
-  if (!layout.stack) return {{.first = 0, .end = layout.image_count}};
+  if (!layout.stack) return {SweptImages{.first = 0, .end = layout.image_count}};
   const uint32_t count = std::min(kStackSweepCount, layout.image_count);
   std::vector<SweptImages> sweeps;
   for (uint32_t i = 0; i < count; ++i) {
