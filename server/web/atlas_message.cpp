@@ -35,7 +35,7 @@ json coverageJson(const Coverage& coverage) {
 std::vector<SharedBytes> bandsOf(const EncodedAtlas& atlas, AtlasPlane plane) {
   std::vector<SharedBytes> bands;
   for (const EncodedBand& band : atlas.bands) {
-    if (band.plane == plane && band.image_index == 0) bands.push_back(band.bytes);
+    if (band.plane == plane) bands.push_back(band.bytes);
   }
   return bands;
 }
@@ -75,6 +75,10 @@ json outsideJson(const std::vector<double>& shares) {
   return runs;
 }
 
+bool isVideo(const EncodedAtlas& atlas) {
+  return atlas.encoding.color == BandEncoding::kH264;
+}
+
 json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
   json header = {{"sequence", atlas.sequence},
                  {"frame_number", std::to_string(atlas.frame_number)},
@@ -89,13 +93,18 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
                  {"defaults_count", atlas.taking.count},
                  {"defaults_reason", reasonText(atlas.taking.reason)},
                  {"method", atlas.method == TraceMethod::kSweep ? "sweep" : "walk"},
-                 {"jpeg_bytes", sizeOf(jpegBands(atlas))},
+                 {"jpeg_bytes", isVideo(atlas) ? 0 : sizeOf(colorBands(atlas))},
                  {"depth_bytes", sizeOf(bandsOf(atlas, AtlasPlane::kDepth))},
                  {"delivery", delivery.delivery},
                  {"change_count", delivery.change_count},
                  {"dropped_count", delivery.dropped_count},
                  {"mailbox_ns", delivery.mailbox_ns},
                  {"shown_ns", delivery.shown_ns}};
+  if (isVideo(atlas)) {
+    for (const SharedBytes& picture : colorBands(atlas)) {
+      header["picture_bytes"].push_back(picture->size());
+    }
+  }
   header["views_outside"] = outsideJson(atlas.outside_shares);
   if (atlas.depth_budget) header["depth_budget"] = budgetJson(*atlas.depth_budget);
   return header;
@@ -111,7 +120,7 @@ AtlasMessage::AtlasMessage(AtlasPtr atlas, const Delivery& delivery)
   }
   parts_.emplace_back(header_length_);
   parts_.emplace_back(reinterpret_cast<const uint8_t*>(header_.data()), length);
-  for (const SharedBytes& band : jpegBands(*atlas_)) parts_.emplace_back(*band);
+  for (const SharedBytes& band : colorBands(*atlas_)) parts_.emplace_back(*band);
   for (const SharedBytes& band : bandsOf(*atlas_, AtlasPlane::kDepth)) parts_.emplace_back(*band);
 }
 
@@ -121,7 +130,7 @@ uint64_t AtlasMessage::sizeBytes() const {
   return size_bytes;
 }
 
-std::vector<SharedBytes> jpegBands(const EncodedAtlas& atlas) {
+std::vector<SharedBytes> colorBands(const EncodedAtlas& atlas) {
   return bandsOf(atlas, AtlasPlane::kColor);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // One atlas as one binary WebSocket message: the length of a JSON header (4 bytes, little-endian),
-// the header, and the atlas as one baseline JPEG.
+// the header, and the atlas as one baseline JPEG, or as pictures of H.264.
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ class AtlasMessage {
   std::vector<std::span<const uint8_t>> parts_;
 };
 
-// The bands that joined are the picture.
-std::vector<SharedBytes> jpegBands(const EncodedAtlas& atlas);
+// Bands of the color. Joined, they are one JPEG, or a stream of H.264 in which each is a picture.
+std::vector<SharedBytes> colorBands(const EncodedAtlas& atlas);
 
 }  // namespace viewloom

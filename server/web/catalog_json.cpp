@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "display/named_display.h"
+#include "video/h264_parameters.h"
 
 namespace viewloom {
 
@@ -29,27 +30,45 @@ json streamJson(const StreamEntry& entry, uint32_t subscriber_count) {
           {"subscriber_count", subscriber_count}};
 }
 
+json stackJson(const VideoStack& stack) {
+  return {{"picture_count", stack.picture_count},
+          {"picture_size", sizeJson(stack.pictureSize())},
+          {"columns", stack.columns},
+          {"rows", stack.rows},
+          {"cell_size", sizeJson(stack.cell_px)},
+          {"codec_string", codedVideoString(stack.pictureSize())},
+          {"color_matrix", "BT601"},
+          {"full_range", true}};
+}
+
 }  // namespace
 
 json layoutJson(const AtlasLayout& layout) {
   const TileArrangementPx shown = layout.shown();
-  return {{"size", sizeJson(shown.size_px)},
-          {"columns", shown.columns},
-          {"rows", shown.rows},
-          {"tile_size", sizeJson(shown.tile_size_px)},
-          {"order", shown.order == TileOrder::kBottomLeft ? "BOTTOM_LEFT" : "TOP_LEFT"},
-          {"aspect", layout.aspect},
-          {"view_count", layout.views.size()},
-          {"padding_right_px", shown.padding_right_px},
-          {"padding_top_px", shown.padding_top_px},
-          {"view_cone_rad", layout.view_cone_rad},
-          {"cone_begin", layout.cone_begin},
-          {"cone_end", layout.cone_end},
-          {"focal_distance_m", layout.focal_distance_m},
-          {"suffix", layout.suffix}};
+  json described = {{"size", sizeJson(shown.size_px)},
+                    {"columns", shown.columns},
+                    {"rows", shown.rows},
+                    {"tile_size", sizeJson(shown.tile_size_px)},
+                    {"order", shown.order == TileOrder::kBottomLeft ? "BOTTOM_LEFT" : "TOP_LEFT"},
+                    {"aspect", layout.aspect},
+                    {"view_count", layout.views.size()},
+                    {"padding_right_px", shown.padding_right_px},
+                    {"padding_top_px", shown.padding_top_px},
+                    {"view_cone_rad", layout.view_cone_rad},
+                    {"cone_begin", layout.cone_begin},
+                    {"cone_end", layout.cone_end},
+                    {"focal_distance_m", layout.focal_distance_m},
+                    {"suffix", layout.suffix}};
+  if (layout.stack) described["video"] = stackJson(*layout.stack);
+  return described;
 }
 
 json encodingJson(const EncodingSpec& encoding) {
+  if (encoding.color == BandEncoding::kH264) {
+    return {{"color", "H264"},
+            {"jpeg_quality", encoding.jpeg_quality},
+            {"video_qp", encoding.video_qp}};
+  }
   return {{"jpeg_quality", encoding.jpeg_quality},
           {"chroma", encoding.chroma == Chroma::k444 ? "444" : "420"}};
 }

@@ -153,7 +153,7 @@ net::awaitable<void> MultipartStream::writeLast(ErrorCode& error) {
 net::awaitable<void> MultipartStream::writePart(std::string end, ErrorCode& error) {
   const AtlasPtr atlas = shown_;
   std::vector<net::const_buffer> part;
-  for (const SharedBytes& band : jpegBands(*atlas)) part.push_back(net::buffer(*band));
+  for (const SharedBytes& band : colorBands(*atlas)) part.push_back(net::buffer(*band));
   part.push_back(net::buffer(end));
   stream_->expiresAfter(context_.options.transfer_timeout);
   co_await net::async_write(*stream_, part, into(error));

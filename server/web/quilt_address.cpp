@@ -102,7 +102,9 @@ absl::StatusOr<WatchRequest> requestOf(const AddressParts& parts) {
   VIEWLOOM_RETURN_IF_ERROR(asked.status());
   absl::StatusOr<WatchRequest> request = makeWatchRequest(*asked);
   if (!request.ok()) return inParameters(request.status(), parts.parameters);
-  return request;
+  if (request->encoding.color == BandEncoding::kJpeg) return request;
+  return invalidField("encoding.color",
+                      "stills and motion JPEG are JPEG; accepted here is BAND_ENCODING_JPEG");
 }
 
 // "?width=800&height=600", or nothing.

@@ -22,7 +22,7 @@ HttpReply jpegReply(const EncodedAtlas& atlas) {
   reply.headers = {{"Cache-Control", "no-store"},
                    {"Viewloom-Sequence", std::to_string(atlas.sequence)},
                    {"Viewloom-Frame-Number", std::to_string(atlas.frame_number)}};
-  reply.shared = jpegBands(atlas);
+  reply.shared = colorBands(atlas);
   return reply;
 }
 

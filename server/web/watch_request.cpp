@@ -34,10 +34,10 @@ absl::Status checkDisplay(const DisplaySpec& display) {
 absl::StatusOr<v1::AtlasEncoding> forWeb(const v1::AtlasEncoding& asked) {
   v1::AtlasEncoding encoding = asked;
   if (encoding.color() == v1::BAND_ENCODING_UNSPECIFIED) encoding.set_color(v1::BAND_ENCODING_JPEG);
-  if (encoding.color() != v1::BAND_ENCODING_JPEG) {
+  if (encoding.color() != v1::BAND_ENCODING_JPEG && encoding.color() != v1::BAND_ENCODING_H264) {
     return invalidField("encoding.color",
-                        strCat("the web serves color as JPEG only; accepted here is "
-                               "BAND_ENCODING_JPEG",
+                        strCat("the web serves color as JPEG or H.264; accepted here is "
+                               "BAND_ENCODING_JPEG or BAND_ENCODING_H264",
                                kElsewhere));
   }
   if (encoding.with_mask()) {

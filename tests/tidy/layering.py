@@ -78,7 +78,7 @@ LAYERS = {
                     "messages", "metrics", BAND, "publish", "tls", "video/h264_parameters.h"],
                    ["absl", "grpc", "protobuf"]),
     "server/web": (["base", "access", "certificates", "frame", "display", "admission", "messages",
-                    "metrics", "publish", "tls", BAND],
+                    "metrics", "publish", "tls", "video/h264_parameters.h", BAND],
                    ["absl", "boost", "nlohmann", "openssl", "protobuf"]),
     "client/text": (["base", "frame/size.h"], ["absl", "sdl"]),
     "client/patterns": (["base", "frame", "synthetic", "text"], ["absl", "glm"]),

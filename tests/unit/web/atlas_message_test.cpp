@@ -93,6 +93,27 @@ TEST(AtlasMessage, holdsTheDepthBudgetWhereThereIsOne) {
                                       "suggested_view_cone_rad": 0.375})"));
 }
 
+TEST(AtlasMessage, holdsPicturesOfAVideo) {
+  const auto atlas = someAtlas();
+  EXPECT_FALSE(headerOf(atlas).contains("picture_bytes"));
+  atlas->encoding = {.color = BandEncoding::kH264, .video_qp = 30};
+  atlas->bands[1].image_index = 1;
+  auto layout = std::make_shared<AtlasLayout>(*atlas->layout);
+  layout->tile_size_px = {16, 20};
+  ASSERT_TRUE(stackViews(*layout).ok());
+  atlas->layout = layout;
+  const nlohmann::json header = headerOf(atlas);
+  EXPECT_EQ(header.at("jpeg_bytes"), 0);
+  EXPECT_EQ(header.at("picture_bytes"), nlohmann::json::parse("[2, 1]"));
+  EXPECT_EQ(header.at("encoding").at("color"), "H264");
+  EXPECT_EQ(header.at("encoding").at("video_qp"), 30);
+  const nlohmann::json& video = header.at("layout").at("video");
+  EXPECT_EQ(video.at("picture_count"), 12);
+  EXPECT_EQ(video.at("cell_size").at("height"), 20);
+  EXPECT_EQ(video.at("codec_string"), "avc1.4D4C0A");
+  EXPECT_EQ(header.at("layout").at("tile_size").at("height"), 20);
+}
+
 TEST(AtlasMessage, doesNotCopyTheBands) {
   const auto atlas = someAtlas();
   const AtlasMessage message(atlas, {});

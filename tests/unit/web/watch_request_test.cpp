@@ -105,6 +105,8 @@ TEST_F(WatchRequests, refuseWhatTheWebCannotCarry) {
   EXPECT_EQ(fieldAtFault({{"display", R"({"rgbd": {"preset": "wowvx", "depth_bits": 16}})"}}),
             "display.rgbd.depth_bits");
   EXPECT_EQ(fieldAtFault({{"encoding", R"({"color": "BAND_ENCODING_ZSTD"})"}}), "encoding.color");
+  EXPECT_EQ(parse({{"encoding", R"({"color": "BAND_ENCODING_H264"})"}})->encoding.color,
+            BandEncoding::kH264);
   EXPECT_EQ(fieldAtFault({{"encoding", R"({"with_mask": true})"}}), "encoding.with_mask");
   EXPECT_EQ(fieldAtFault({{"encoding", R"({"with_depth": true, "planes": "BAND_ENCODING_ZSTD"})"}}),
             "encoding.planes");
