@@ -75,6 +75,29 @@ TEST_F(EncodeQueueTest, batchesOfOneAtlasKeepTheirOrder) {
   EXPECT_EQ(popName(), "quilt strip 1");
 }
 
+TEST_F(EncodeQueueTest, whatOthersWaitForGoesBeforeTheRestOfItsAtlas) {
+  const AtlasRunPtr run = runOf("video", 100);
+  push(run, 2, 1);
+  popName();
+  queue_.noteMade(*popped_);
+  EXPECT_EQ(popName(), "video strip 0");
+  // The coding of a picture packs no strips.
+  queue_.pushFirst(std::make_shared<StripBatch>(
+      run, std::make_unique<NoWork>(StripWorkShape{.strip_count = 0, .piece_count = 1})));
+  EXPECT_EQ(popName(), "video piece 0");
+  queue_.noteMade(*popped_);
+  EXPECT_EQ(popName(), "video strip 1");
+}
+
+TEST_F(EncodeQueueTest, whatOthersWaitForIsDoneOnceTheQueueIsClosed) {
+  queue_.close();
+  queue_.pushFirst(std::make_shared<StripBatch>(
+      runOf("video", 100),
+      std::make_unique<NoWork>(StripWorkShape{.strip_count = 0, .piece_count = 1})));
+  EXPECT_EQ(popName(), "video piece 0");
+  EXPECT_EQ(popName(), "");
+}
+
 TEST_F(EncodeQueueTest, stripsWaitUntilAllPiecesAreMade) {
   push(runOf("quilt", 100), 2, 2);
   EXPECT_EQ(popName(), "quilt piece 0");

@@ -47,6 +47,20 @@ TEST_F(PictureCacheTest, aCameraThatStandsStillKeepsItsPicture) {
   EXPECT_EQ(get(seenFrom(0)), get(seenFrom(0)));
 }
 
+TEST_F(PictureCacheTest, viewsOfAVideoLieInAStackOfPictures) {
+  ActiveDisplay display = someDisplay();
+  display.encoding.color = BandEncoding::kH264;
+  const ResidentStructure source = seenFrom(0);
+  const auto picture = cache_.get(display, source, {source.sources, {}});
+  ASSERT_TRUE(picture.ok()) << picture.status();
+  const AtlasLayout& layout = *(*picture)->layout;
+  ASSERT_TRUE(layout.stack.has_value());
+  EXPECT_EQ(layout.image_count, 4u);
+  EXPECT_EQ(layout.size_px, (SizePx{32, 4 * 32}));
+  EXPECT_EQ(layout.shown().size_px, (SizePx{64, 64}));
+  EXPECT_EQ((*picture)->tiles.size(), 4u);
+}
+
 TEST_F(PictureCacheTest, aCameraThatMovesKeepsTheLayoutAndAimsTheViewsAnew) {
   const PicturePtr before = get(seenFrom(0));
   const float eye_before = before->tiles.front().eye.x;
