@@ -261,8 +261,11 @@ absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
   encoding.with_depth_codes = hasDepthPlane(display);
   encoding.planes = *planes;
   if (proto.jpeg_quality() != 0) encoding.jpeg_quality = proto.jpeg_quality();
-  encoding.video_qp =
-      proto.video_qp() != 0 ? proto.video_qp() : matchedVideoQp(encoding.jpeg_quality);
+  if (proto.video_qp() != 0) {
+    encoding.video_qp = proto.video_qp();
+  } else if (encoding.color == BandEncoding::kH264) {
+    encoding.video_qp = matchedVideoQp(encoding.jpeg_quality);
+  }
   encoding.with_depth = proto.with_depth();
   encoding.with_mask = proto.with_mask();
   VIEWLOOM_RETURN_IF_ERROR(validateEncodingSpec(encoding));
