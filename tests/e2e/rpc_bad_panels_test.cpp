@@ -62,9 +62,21 @@ const std::vector<BadDisplay> kLenticularPanels = {
        o.mutable_encoding()->set_chroma(v1::CHROMA_SUBSAMPLING_420);
      },
      {kInvalid, "open.encoding.chroma"}},
+    {"video of subpixels",
+     [](auto& o) {
+       lenticular(o);
+       o.mutable_encoding()->set_color(v1::BAND_ENCODING_H264);
+     },
+     {kInvalid, "open.encoding.color"}},
 };
 
 const std::vector<BadDisplay> kMicrolensPanels = {
+    {"video of pixels behind lenses",
+     [](auto& o) {
+       integral(o);
+       o.mutable_encoding()->set_color(v1::BAND_ENCODING_H264);
+     },
+     {kInvalid, "open.encoding.color"}},
     {"no such preset",
      [](auto& o) { integral(o).set_preset("hologram"); },
      {grpc::StatusCode::NOT_FOUND, kIntegral + "preset"}},

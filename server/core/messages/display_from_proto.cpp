@@ -215,13 +215,13 @@ constexpr EnumRow<v1::ChromaSubsampling, Chroma> kChromas[] = {
     {v1::CHROMA_SUBSAMPLING_420, Chroma::k420},
     {v1::CHROMA_SUBSAMPLING_444, Chroma::k444}};
 
-// Fields of the protocol that this server does not serve.
+// Whether pictures refer to those of other atlases.
+constexpr EnumRow<v1::Prediction, bool> kPredictions[] = {{v1::PREDICTION_UNSPECIFIED, false},
+                                                          {v1::PREDICTION_WITHIN_ATLAS, false}};
+
+// Refuses fields of the protocol that this server does not serve.
 absl::Status refuseUnserved(const v1::AtlasEncoding& proto) {
-  if (proto.prediction() != v1::PREDICTION_UNSPECIFIED &&
-      proto.prediction() != v1::PREDICTION_WITHIN_ATLAS) {
-    return fieldError(absl::StatusCode::kUnimplemented, "prediction",
-                      "this server predicts within an atlas only; accepted is WITHIN_ATLAS");
-  }
+  VIEWLOOM_RETURN_IF_ERROR(enumFromProto(proto.prediction(), "prediction", kPredictions).status());
   if (proto.bits_per_second_max() == 0) return absl::OkStatus();
   return fieldError(absl::StatusCode::kUnimplemented, "bits_per_second_max",
                     "this server keeps one quantisation; accepted is 0. Give video_qp instead");
