@@ -218,7 +218,10 @@ const std::vector<BadDisplay> kCommon = {
      [](auto& o) { encoding(o).set_prediction(static_cast<v1::Prediction>(99)); },
      {kInvalid, "open.encoding.prediction"}},
     {"a client that accepts nothing that there is",
-     [](auto& o) { o.add_accepted()->set_color(static_cast<v1::BandEncoding>(99)); },
+     [](auto& o) {
+       encoding(o).clear_color();
+       o.add_accepted()->set_color(static_cast<v1::BandEncoding>(99));
+     },
      {kInvalid, "open.accepted"}},
     {"a focal plane that follows for an hour",
      [](auto& o) { o.mutable_display()->set_focus_following_s(3600); },
