@@ -36,10 +36,9 @@ struct VideoStack {
 // Largest side of a picture: hardware decoders stop there.
 inline constexpr SizePx kVideoPictureMax_px = {4096, 2176};
 
-// Plans the stack of so many views of one size. Pictures have about a million pixels: less of them
-// predicts better, more of them gives decoders fewer calls. RESOURCE_EXHAUSTED if one view is
-// larger than `picture_max_px`, which has at most the sides of kVideoPictureMax_px.
-absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count,
-                                          SizePx picture_max_px = kVideoPictureMax_px);
+// Plans the stack of so many views of one size. Pictures have about a million pixels: smaller ones
+// predict better, larger ones give decoders fewer calls. RESOURCE_EXHAUSTED if one view is larger
+// than kVideoPictureMax_px.
+absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count);
 
 }  // namespace viewloom
