@@ -9,7 +9,7 @@
 namespace viewloom {
 namespace {
 
-// An encoder holds about 12 bytes for each pixel of a picture.
+// An encoder holds about 10 bytes for each pixel of a picture.
 constexpr size_t kKeptCount = 4;
 // Rows of a slice at least: each predicts anew.
 constexpr uint32_t kSliceRowsMin = 64;

@@ -8,7 +8,7 @@ namespace viewloom {
 
 // Stacks of three pictures, coded as a whole and in slices.
 SeedBytes videoSeeds() {
-  constexpr SizePx kSize_px = {48, 64};
+  constexpr SizePx kSize_px = {64, 128};
   SeedBytes seeds;
   for (const uint32_t thread_count : {1U, 2U}) {
     auto encoder =

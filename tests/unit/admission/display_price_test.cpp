@@ -26,6 +26,17 @@ TEST(DisplayPrice, growsWithThePlanesThatAreAskedFor) {
   EXPECT_EQ(all.viewerBytes(), kConnectionBytes + 9 * area_px);
 }
 
+// 16 pictures of one view each wait, and an encoder has a few of them.
+TEST(DisplayPrice, countsPicturesOfAVideoAndItsEncoder) {
+  const uint64_t area_px = 1024 * 1024;
+  const DisplayPrice video = displayPrice(quiltOf(1024), {.color = BandEncoding::kH264});
+  EXPECT_EQ(video.making_bytes,
+            4 * area_px + area_px * 3 / 2 + 10 * area_px / 16 + (uint64_t{3} << 20));
+  EXPECT_EQ(video.encoded_bytes, area_px / 2);
+  const EncodingSpec fine = {.color = BandEncoding::kH264, .video_qp = 1};
+  EXPECT_EQ(displayPrice(quiltOf(1024), fine).encoded_bytes, 4 * area_px);
+}
+
 TEST(DisplayPrice, growsWithTheSamplesOfALens) {
   DisplaySpec spec = quiltOf(1024);
   const uint64_t sharp_bytes = displayPrice(spec, {}).rays_bytes;
