@@ -48,11 +48,8 @@ uint64_t encodedBytes(const EncodingSpec& encoding, uint64_t area_px) {
 uint64_t videoBytes(const TileGrid& grid) {
   const absl::StatusOr<VideoStack> stack = planVideoStack(grid.tile_size_px, grid.view_count);
   if (!stack.ok()) return 0;  // refused elsewhere
-  constexpr uint64_t kEncoderBytes = uint64_t{3} << 20;
-  constexpr uint64_t kEncoderPixelBytes = 10;
-  const uint64_t picture_px = stack->pictureSize().area();
-  return kEncoderBytes + picture_px * kEncoderPixelBytes +
-         picture_px * stack->picture_count * 3 / 2;
+  const SizePx picture_px = stack->pictureSize();
+  return videoEncoderBytes(picture_px) + picture_px.area() * stack->picture_count * 3 / 2;
 }
 
 uint64_t makingBytes(const EncodingSpec& encoding, uint64_t area_px) {

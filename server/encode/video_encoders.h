@@ -4,29 +4,33 @@
 
 #include <cstdint>
 #include <memory>
-#include <mutex>
-#include <vector>
 
 #include "video/video_encoder.h"
 
 namespace viewloom {
+
+class IdleMemory;
 
 // To make an encoder takes memory and time, and one serves any atlas of its format.
 // Thread-safety: all methods may be called from any thread.
 class VideoEncoders {
  public:
   // `thread_count`: threads of each encoder, 1..16.
-  explicit VideoEncoders(uint32_t thread_count) : thread_count_(thread_count) {}
+  explicit VideoEncoders(uint32_t thread_count);
 
   // An encoder that nobody else has. Errors as of OpenH264Encoder::make.
   absl::StatusOr<std::unique_ptr<VideoEncoder>> take(SizePx picture_px, uint32_t qp);
   // Keeps the newest few.
   void putBack(std::unique_ptr<VideoEncoder> encoder);
 
+  // The encoders that wait.
+  std::shared_ptr<IdleMemory> idleMemory() const;
+
  private:
+  struct Shelf;
+
   const uint32_t thread_count_;
-  std::mutex mutex_;
-  std::vector<std::unique_ptr<VideoEncoder>> free_;  // oldest first
+  const std::shared_ptr<Shelf> shelf_;
 };
 
 }  // namespace viewloom

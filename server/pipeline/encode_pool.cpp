@@ -8,6 +8,7 @@
 #include <functional>
 #include <utility>
 
+#include "base/idle_memory.h"
 #include "base/thread_name.h"
 #include "base/thread_time.h"
 #include "pipeline/within_memory.h"
@@ -83,6 +84,7 @@ EncodePool::EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, Fa
       tasks_(shares) {
   links_.memory.addIdle(bytes_.idleMemory());
   links_.memory.addIdle(planes_.idleMemory());
+  links_.memory.addIdle(video_encoders_.idleMemory());
   for (uint32_t i = 0; i < thread_count; ++i) {
     threads_.emplace_back([this] {
       nameThread("encode");

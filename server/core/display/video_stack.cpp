@@ -95,4 +95,11 @@ absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count) {
   return stack;
 }
 
+// Measured on OpenH264 2.3.1, from 320x240 to 4096x2176 px.
+uint64_t videoEncoderBytes(SizePx picture_px) {
+  constexpr uint64_t kAlways_bytes = uint64_t{3} << 20;
+  constexpr uint64_t kPixel_bytes = 10;
+  return kAlways_bytes + kPixel_bytes * picture_px.area();
+}
+
 }  // namespace viewloom

@@ -41,4 +41,7 @@ inline constexpr SizePx kVideoPictureMax_px = {4096, 2176};
 // than kVideoPictureMax_px.
 absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count);
 
+// Memory that an encoder of such pictures takes, bytes; within a tenth.
+uint64_t videoEncoderBytes(SizePx picture_px);
+
 }  // namespace viewloom

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encode/video_encoders.h"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+
+#include "base/idle_memory.h"
+#include "display/video_stack.h"
+
+namespace viewloom::test::video_encoders_test {
+namespace {
+
+constexpr SizePx kSize_px = {64, 64};
+
+std::unique_ptr<VideoEncoder> taken(VideoEncoders& encoders, uint32_t qp) {
+  auto encoder = encoders.take(kSize_px, qp);
+  EXPECT_TRUE(encoder.ok()) << encoder.status();
+  return encoder.ok() ? *std::move(encoder) : nullptr;
+}
+
+TEST(VideoEncoders, serveTheNextAtlasOfTheSameFormat) {
+  VideoEncoders encoders(1);
+  std::unique_ptr<VideoEncoder> encoder = taken(encoders, 24);
+  const VideoEncoder* const first = encoder.get();
+  encoders.putBack(std::move(encoder));
+  EXPECT_NE(taken(encoders, 30).get(), first) << "another quantisation";
+  EXPECT_EQ(taken(encoders, 24).get(), first);
+}
+
+TEST(VideoEncoders, cutNoPictureIntoSlicesOfAFewRows) {
+  VideoEncoders encoders(4);
+  EXPECT_EQ(taken(encoders, 24)->format().thread_count, 1u);
+}
+
+TEST(VideoEncoders, letIdleMemoryGo) {
+  VideoEncoders encoders(1);
+  EXPECT_EQ(encoders.idleMemory()->idleBytes(), 0u);
+  encoders.putBack(taken(encoders, 24));
+  EXPECT_EQ(encoders.idleMemory()->idleBytes(), videoEncoderBytes(kSize_px));
+  EXPECT_EQ(encoders.idleMemory()->releaseIdle(std::chrono::hours(1)), 0u);
+  EXPECT_EQ(encoders.idleMemory()->releaseIdle({}), videoEncoderBytes(kSize_px));
+  EXPECT_EQ(encoders.idleMemory()->idleBytes(), 0u);
+}
+
+TEST(VideoEncoders, keepTheNewestFew) {
+  VideoEncoders encoders(1);
+  for (uint32_t qp = 20; qp < 30; ++qp) encoders.putBack(taken(encoders, qp));
+  EXPECT_EQ(encoders.idleMemory()->idleBytes(), 4 * videoEncoderBytes(kSize_px));
+}
+
+}  // namespace
+}  // namespace viewloom::test::video_encoders_test
