@@ -13,7 +13,9 @@ namespace {
 
 constexpr uint32_t kQpMax = 51;
 constexpr uint32_t kThreadsMax = 16;
-constexpr float kNominalRate_hz = 30;  // changes no picture at a fixed quantisation
+// Changes no picture at a fixed quantisation. The library raises the level for higher rates, which
+// nobody knows before.
+constexpr float kNominalRate_hz = 1;
 
 absl::Status checkFormat(const VideoFormat& format) {
   const SizePx size_px = format.size_px;

@@ -109,7 +109,8 @@ TEST(OpenH264, keepsFlatPatchesWithinOneCode) {
 }
 
 TEST(OpenH264, takesPicturesFromTheSmallestToTheLargest) {
-  for (const SizePx size_px : {SizePx{16, 16}, SizePx{18, 16}, SizePx{4096, 2176}}) {
+  for (const SizePx size_px : {SizePx{16, 16}, SizePx{18, 16}, SizePx{352, 288}, SizePx{720, 576},
+                               SizePx{1280, 720}, SizePx{4096, 16}, SizePx{4096, 2176}}) {
     const auto encoder = encoderOf({.size_px = size_px});
     const auto decoder = newDecoder();
     const std::vector<AccessUnit> units = codedStack(*encoder, 2);
