@@ -5,28 +5,31 @@
 #include "video/openh264_encoder.h"
 
 namespace viewloom {
+namespace {
 
-// Stacks of three pictures, coded as a whole and in slices.
-SeedBytes videoSeeds() {
-  constexpr SizePx kSize_px = {64, 128};
-  SeedBytes seeds;
-  for (const uint32_t thread_count : {1U, 2U}) {
-    auto encoder =
-        OpenH264Encoder::make({.size_px = kSize_px, .qp = 30, .thread_count = thread_count});
-    VIEWLOOM_CHECK(encoder.ok());
-    SeedWriter script;
-    script.bytes({uint8_t(kSize_px.width / 2 - 1), uint8_t(kSize_px.height / 2 - 1)});
-    for (int i = 0; i < 3; ++i) {
-      std::vector<uint8_t> unit;
-      const absl::Status status =
-          (*encoder)->encode(test::SamplePicture::texture(kSize_px, i).video(),
-                             i == 0 ? Reference::kNone : Reference::kPictureBefore, unit);
-      VIEWLOOM_CHECK(status.ok());
-      script.counted(std::string(unit.begin(), unit.end()));
-    }
-    seeds.push_back(script.done());
+// Three pictures that refer to each other.
+std::vector<uint8_t> codedStack(const VideoFormat& format) {
+  auto encoder = OpenH264Encoder::make(format);
+  VIEWLOOM_CHECK(encoder.ok());
+  SeedWriter script;
+  script.bytes({uint8_t(format.size_px.width / 2 - 1), uint8_t(format.size_px.height / 2 - 1)});
+  for (int i = 0; i < 3; ++i) {
+    std::vector<uint8_t> unit;
+    const absl::Status status =
+        (*encoder)->encode(test::SamplePicture::texture(format.size_px, i).video(),
+                           i == 0 ? Reference::kNone : Reference::kPictureBefore, unit);
+    VIEWLOOM_CHECK(status.ok());
+    script.counted(std::string(unit.begin(), unit.end()));
   }
-  return seeds;
+  return script.done();
+}
+
+}  // namespace
+
+// The library cuts no slices of less than 48 macroblocks.
+SeedBytes videoSeeds() {
+  return {codedStack({.size_px = {48, 32}, .qp = 30}),
+          codedStack({.size_px = {160, 160}, .qp = 40, .thread_count = 2})};
 }
 
 }  // namespace viewloom
