@@ -39,4 +39,11 @@ EyePosesPtr EyeTrack::used() const {
   return used_;
 }
 
+EyeTrackPtr trackOf(const DisplaySpec& display, const EyeTrackPtr& before) {
+  if (!isTracked(display)) return nullptr;
+  const EyePosesPtr newest = before == nullptr ? nullptr : before->newest();
+  const bool are_its_eyes = newest != nullptr && newest->eyes.size() == trackedEyeCount(display);
+  return are_its_eyes ? std::make_shared<EyeTrack>(*before) : std::make_shared<EyeTrack>();
+}
+
 }  // namespace viewloom

@@ -47,6 +47,11 @@ class EyeTrack {
 
 using EyeTrackPtr = std::shared_ptr<EyeTrack>;
 
+// The track of a display that takes the place of another, seen by the same eyes if there are as
+// many of them. `before`: the other's track, nullptr = there is none. nullptr if nobody tracks the
+// eyes of the display.
+EyeTrackPtr trackOf(const DisplaySpec& display, const EyeTrackPtr& before);
+
 // Takes the poses of eyes in, as FrameSink takes frames.
 class EyeSink {
  public:

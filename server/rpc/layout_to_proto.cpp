@@ -57,6 +57,8 @@ v1::BandEncoding bandEncodingToProto(BandEncoding encoding) {
       return v1::BAND_ENCODING_RAW;
     case BandEncoding::kH264:
       return v1::BAND_ENCODING_H264;
+    case BandEncoding::kCompactDepth:
+      return v1::BAND_ENCODING_COMPACT_DEPTH;
   }
   VIEWLOOM_CHECK(false && "unknown BandEncoding");
   return v1::BAND_ENCODING_UNSPECIFIED;

@@ -5,10 +5,11 @@
 
 #include "admission/display_price.h"
 #include "base/str_cat.h"
+#include "messages/eye_poses_from_proto.h"
 #include "messages/wire_message.h"
+#include "publish/eye_intake.h"
 #include "publish/subscriber.h"
 #include "rpc/display_request.h"
-#include "rpc/eye_poses_from_proto.h"
 #include "rpc/stream_name.h"
 
 namespace viewloom {
@@ -106,7 +107,7 @@ absl::Status WatchCall::handleEyePoses(const v1::EyePoses& request, int64_t rece
                       "eye poses came for a display that does not track eyes; accepted are they "
                       "for a StereoDisplay with tracked set");
   }
-  absl::StatusOr<EyePoses> poses = eyePosesFromProto(request);
+  absl::StatusOr<EyePoses> poses = eyePosesFromProto(request, trackedEyeCount(asked_.display()));
   VIEWLOOM_RETURN_IF_ERROR(poses.status());
   poses->received_ns = received_ns;
   uint64_t display_id = 0;
@@ -115,12 +116,8 @@ absl::Status WatchCall::handleEyePoses(const v1::EyePoses& request, int64_t rece
     if (subscription_ == nullptr) return absl::OkStatus();  // the call has begun to end
     display_id = subscription_->displayId();
   }
-  if (const std::optional<double> focal_distance_m = focalDistance(display_id)) {
-    VIEWLOOM_RETURN_IF_ERROR(validateInFront(*poses, *focal_distance_m));
-  }
-  eyes_->put(*std::move(poses));
-  parts_.eyes.serveEyes(display_id);
-  return absl::OkStatus();
+  return takeEyePoses(*std::move(poses), {asked_.display(), display_id, *eyes_}, parts_.broadcaster,
+                      parts_.eyes);
 }
 
 void WatchCall::notePresented(const v1::Presented& presented) {
@@ -135,15 +132,6 @@ void WatchCall::noteProbe(const v1::ClockProbe& probe, int64_t received_ns) {
   std::lock_guard lock(mutex_);
   clock_replies_.note(probe.client_time_ns(), received_ns);
   advance();
-}
-
-// Where the stream has to give it, it is not known before the first frame: the trace checks again.
-std::optional<double> WatchCall::focalDistance(uint64_t display_id) const {
-  const double wanted_m = std::get<StereoSpec>(asked_.display().kind).focal_distance_m;
-  if (wanted_m > 0) return wanted_m;
-  const std::shared_ptr<const AtlasLayout> layout = parts_.broadcaster.layout(display_id);
-  if (layout == nullptr) return std::nullopt;
-  return layout->focal_distance_m;
 }
 
 DisplayUse WatchCall::displayUse() const {
@@ -169,11 +157,7 @@ absl::Status WatchCall::takeSeat(const std::string& field) {
     advance();
   }
   leave(std::move(left));  // before the new one, so that a change never needs a second place
-  if (!isTracked(asked_.display())) {
-    eyes_ = nullptr;
-  } else {
-    eyes_ = eyes_ ? std::make_shared<EyeTrack>(*eyes_) : std::make_shared<EyeTrack>();
-  }
+  eyes_ = trackOf(asked_.display(), eyes_);
   auto quota = caller_->holdDisplay(displayUse());
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(quota.status(), field));
   auto subscription =

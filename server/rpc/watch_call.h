@@ -70,7 +70,6 @@ class WatchCall final : public BidiCall {
   absl::Status handleEyePoses(const v1::EyePoses& request, int64_t received_ns);
   void notePresented(const v1::Presented& presented);
   void noteProbe(const v1::ClockProbe& probe, int64_t received_ns);
-  std::optional<double> focalDistance(uint64_t display_id) const;
   DisplayUse displayUse() const;
   absl::Status takeSeat(const std::string& field);
 

@@ -25,7 +25,8 @@ READERS = re.compile(r"""
   | /server/config/(toml_file|settings)\.cpp
   | /server/decode/(frame_assembly|frame_decoder|plane_decoder)\.cpp
   | /server/decode/(jpeg_plane|predicted_plane|zstd_plane)\.cpp
-  | /server/rpc/(eye_poses_from_proto|frame_from_proto|stream_name)\.cpp
+  | /server/core/messages/eye_poses_from_proto\.cpp
+  | /server/rpc/(frame_from_proto|stream_name)\.cpp
   | /server/rpc/(publish_call|read_chunk|watch_call)\.cpp
   | /server/web/(asked_display|host_policy|quilt_address|url|watch_request)\.cpp
   | /client/eyes/eye_feed\.cpp

@@ -14,8 +14,8 @@
 #include "fuzz/targets.h"
 #include "lib/atlas_assembler.h"
 #include "messages/display_from_proto.h"
+#include "messages/eye_poses_from_proto.h"
 #include "messages/wire_message.h"
-#include "rpc/eye_poses_from_proto.h"
 #include "rpc/frame_from_proto.h"
 #include "rpc/layout_to_proto.h"
 #include "rpc/read_chunk.h"
@@ -113,7 +113,9 @@ bool fuzzDisplay(FuzzBytes bytes) {
 
 bool fuzzEyePoses(FuzzBytes bytes) {
   const auto proto = messageOf<v1::EyePoses>(bytes);
-  return proto && isAccepted(eyePosesFromProto(*proto).status());
+  if (!proto) return false;
+  const size_t eye_count = proto->eyes_size() == 1 ? 1 : 2;
+  return isAccepted(eyePosesFromProto(*proto, eye_count).status());
 }
 
 bool fuzzChunk(FuzzBytes bytes) {

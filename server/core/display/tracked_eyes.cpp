@@ -3,6 +3,7 @@
 
 #include <glm/common.hpp>
 
+#include "base/check.h"
 #include "base/str_cat.h"
 #include "display/focal_window.h"
 
@@ -28,6 +29,10 @@ bool isTracked(const DisplaySpec& spec) {
   return stereo != nullptr && stereo->is_tracked;
 }
 
+size_t trackedEyeCount(const DisplaySpec& spec) {
+  return eyeCount(std::get<StereoSpec>(spec.kind));
+}
+
 absl::Status validateInFront(const EyePoses& poses, double focal_distance_m) {
   for (size_t i = 0; i < poses.eyes.size(); ++i) {
     const TrackedEye& eye = poses.eyes[i];
@@ -42,6 +47,7 @@ absl::Status validateInFront(const EyePoses& poses, double focal_distance_m) {
 
 absl::Status placeEyes(const EyePoses& poses, const StereoSpec& stereo,
                        const StreamDefaults& defaults, AtlasLayout& layout) {
+  VIEWLOOM_CHECK(poses.eyes.size() == eyeCount(stereo));
   VIEWLOOM_RETURN_IF_ERROR(validateInFront(poses, layout.focal_distance_m));
   const FocalWindow window =
       focalWindow(layout.focal_distance_m, stereo.fov_y_rad, layout.aspect, defaults);
@@ -55,6 +61,8 @@ absl::Status placeEyes(const EyePoses& poses, const StereoSpec& stereo,
     }
     layout.views.push_back({camera});
   }
+  layout.view_pitch_m = glm::dvec2(0);
+  if (poses.eyes.size() == 1) return absl::OkStatus();
   const glm::dvec3 beside_m = poses.eyes[1].pose.position_m - poses.eyes[0].pose.position_m;
   layout.view_pitch_m = glm::abs(glm::dvec2(beside_m));
   return absl::OkStatus();

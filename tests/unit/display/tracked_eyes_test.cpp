@@ -34,7 +34,7 @@ StereoSpec trackedStereo() {
 }
 
 EyePoses eyesAt(const glm::dvec3& left_m, const glm::dvec3& right_m) {
-  EyePoses poses{.time_ns = 1, .predicted_display_time_ns = 2, .eyes = {}};
+  EyePoses poses{.time_ns = 1, .predicted_display_time_ns = 2};
   poses.eyes[0].pose.position_m = left_m;
   poses.eyes[1].pose.position_m = right_m;
   return poses;
@@ -155,6 +155,24 @@ TEST(TrackedEyes, areRefusedWhereTheySeeNothing) {
   EXPECT_THAT(std::string(validateInFront(poses, 2).message()),
               HasSubstr("z = -3 m, on or behind the focal plane; accepted is more than -2 m"));
   EXPECT_TRUE(validateInFront(poses, 3.5).ok());
+}
+
+TEST(TrackedEyes, areOneWhereTheDisplayShowsOneView) {
+  StereoSpec stereo = trackedStereo();
+  stereo.layout = StereoLayout::kSingle;
+  EXPECT_EQ(trackedEyeCount({.kind = stereo}), 1u);
+  const absl::StatusOr<AtlasLayout> untracked = layoutOf(stereo, nullptr);
+  ASSERT_TRUE(untracked.ok()) << untracked.status();
+  EXPECT_EQ(untracked->size_px, (SizePx{640, 480}));
+  ASSERT_EQ(untracked->views.size(), 1u);
+  EXPECT_EQ(untracked->views[0].camera.pose.position_m, glm::dvec3(0));
+  EyePoses poses{.eyes = std::vector<TrackedEye>(1)};
+  poses.eyes[0].pose.position_m = {0.25, 0.125, 0.5};
+  const absl::StatusOr<AtlasLayout> tracked = layoutOf(stereo, &poses);
+  ASSERT_TRUE(tracked.ok()) << tracked.status();
+  ASSERT_EQ(tracked->views.size(), 1u);
+  EXPECT_EQ(tracked->views[0].camera.pose.position_m, glm::dvec3(0.25, 0.125, 0.5));
+  EXPECT_EQ(tracked->view_pitch_m, glm::dvec2(0));
 }
 
 TEST(TrackedEyes, areThoseOfAStereoDisplayWithoutOthers) {

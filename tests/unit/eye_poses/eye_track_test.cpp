@@ -38,5 +38,21 @@ TEST(EyeTrack, goesOnBeforeAnotherDisplayThatShowsNothingYet) {
   EXPECT_EQ(track.used(), nullptr);
 }
 
+DisplaySpec stereoOf(StereoLayout layout, bool is_tracked = true) {
+  return {.kind = StereoSpec{.layout = layout, .eye_size_px = {64, 48}, .is_tracked = is_tracked}};
+}
+
+TEST(EyeTrack, goesOnBeforeADisplayOfAsManyEyes) {
+  const EyeTrackPtr pair = trackOf(stereoOf(StereoLayout::kSideBySide), nullptr);
+  ASSERT_NE(pair, nullptr);
+  pair->put({.time_ns = 1});
+  const EyeTrackPtr other = trackOf(stereoOf(StereoLayout::kTopBottom), pair);
+  EXPECT_EQ(other->newest(), pair->newest());
+  const EyeTrackPtr single = trackOf(stereoOf(StereoLayout::kSingle), pair);
+  ASSERT_NE(single, nullptr);
+  EXPECT_EQ(single->newest(), nullptr) << "two eyes are not one";
+  EXPECT_EQ(trackOf(stereoOf(StereoLayout::kSideBySide, false), pair), nullptr);
+}
+
 }  // namespace
 }  // namespace viewloom::eye_track_test

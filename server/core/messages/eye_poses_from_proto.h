@@ -8,8 +8,9 @@
 
 namespace viewloom {
 
-// Errors name the field as "eye_poses.eyes[1].pose.position". Whether the eyes stand in front of
-// the focal plane is not known here.
-absl::StatusOr<EyePoses> eyePosesFromProto(const v1::EyePoses& proto);
+// Poses of a tracked display with so many eyes. Errors name the field as
+// "eye_poses.eyes[1].pose.position". Whether the eyes stand in front of the focal plane is not
+// known here.
+absl::StatusOr<EyePoses> eyePosesFromProto(const v1::EyePoses& proto, size_t eye_count);
 
 }  // namespace viewloom

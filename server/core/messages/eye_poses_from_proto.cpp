@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "rpc/eye_poses_from_proto.h"
+#include "messages/eye_poses_from_proto.h"
 
 #include "base/str_cat.h"
 #include "messages/source_from_proto.h"
@@ -21,13 +21,13 @@ absl::StatusOr<TrackedEye> eyeFromProto(const v1::Camera& proto) {
 
 }  // namespace
 
-absl::StatusOr<EyePoses> eyePosesFromProto(const v1::EyePoses& proto) {
+absl::StatusOr<EyePoses> eyePosesFromProto(const v1::EyePoses& proto, size_t eye_count) {
   EyePoses poses{.time_ns = proto.time_ns(),
                  .predicted_display_time_ns = proto.predicted_display_time_ns(),
-                 .eyes = {}};
-  if (proto.eyes_size() != int(poses.eyes.size())) {
-    return invalidField("eye_poses.eyes",
-                        strCat("got ", proto.eyes_size(), " eyes; accepted is two: left, right"));
+                 .eyes = std::vector<TrackedEye>(eye_count)};
+  if (proto.eyes_size() != int(eye_count)) {
+    return invalidField("eye_poses.eyes", strCat("got ", proto.eyes_size(), " eyes; accepted is ",
+                                                 eye_count == 1 ? "one" : "two: left, right"));
   }
   for (int i = 0; i < proto.eyes_size(); ++i) {
     const auto eye = eyeFromProto(proto.eyes(i));
