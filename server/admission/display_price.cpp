@@ -21,6 +21,7 @@ constexpr uint32_t kFineQuality = 91;
 constexpr uint32_t kFineVideoQp = 12;
 constexpr uint32_t kColorPixelBytes = 4;
 constexpr uint32_t kDepthPixelBytes = 4;
+constexpr uint32_t kCompactDepthPixelBytes = 1;  // at most half of that, and odd sides
 constexpr uint32_t kCodePixelBytes = 2;
 
 uint64_t encodedColorBytes(const EncodingSpec& encoding, uint64_t area_px) {
@@ -33,14 +34,21 @@ uint64_t encodedColorBytes(const EncodingSpec& encoding, uint64_t area_px) {
       return encoding.video_qp < matchedVideoQp(kFineQuality) ? area_px : area_px / 2;
     case BandEncoding::kZstd:
     case BandEncoding::kRaw:
+    case BandEncoding::kCompactDepth:  // never of colour
       break;
   }
   return area_px * kColorPixelBytes;
 }
 
+uint32_t encodedDepthPixelBytes(const EncodingSpec& encoding) {
+  if (!encoding.with_depth) return 0;
+  return encoding.planes == BandEncoding::kCompactDepth ? kCompactDepthPixelBytes
+                                                        : kDepthPixelBytes;
+}
+
 uint64_t encodedBytes(const EncodingSpec& encoding, uint64_t area_px) {
   return encodedColorBytes(encoding, area_px) +
-         area_px * ((encoding.with_depth ? kDepthPixelBytes : 0) + (encoding.with_mask ? 1 : 0) +
+         area_px * (encodedDepthPixelBytes(encoding) + (encoding.with_mask ? 1 : 0) +
                     (encoding.with_depth_codes ? kCodePixelBytes : 0));
 }
 

@@ -2,6 +2,7 @@
 #include "encode/band_encoder.h"
 
 #include "base/check.h"
+#include "encode/compact_depth.h"
 #include "encode/jpeg_encoder.h"
 #include "encode/lossless_encoder.h"
 
@@ -46,16 +47,18 @@ BandEncoding encodingOf(const EncodingSpec& encoding, AtlasPlane plane) {
 
 }  // namespace
 
-// Rows of MCUs, of which a band has eight; a Zstandard frame is a whole band.
+// Rows of MCUs, of which a band has eight; what is compressed as one stream is a whole band.
 uint32_t leastSliceRowCount(const EncodingSpec& encoding, AtlasPlane plane) {
   constexpr uint32_t kMcuRows = 8;
-  const bool is_whole = encodingOf(encoding, plane) == BandEncoding::kZstd;
+  const BandEncoding packing = encodingOf(encoding, plane);
+  const bool is_whole = packing == BandEncoding::kZstd || packing == BandEncoding::kCompactDepth;
   return bandRowCount(encoding) / (is_whole ? 1 : kMcuRows);
 }
 
 BandEncoder::BandEncoder(BytePool& pool)
     : jpeg_(std::make_unique<JpegEncoder>(pool)),
-      lossless_(std::make_unique<LosslessEncoder>(pool)) {}
+      lossless_(std::make_unique<LosslessEncoder>(pool)),
+      pool_(pool) {}
 
 BandEncoder::~BandEncoder() = default;
 
@@ -81,6 +84,11 @@ EncodedBand BandEncoder::encode(const BandPixels& pixels, const EncodingSpec& en
       break;
     case BandEncoding::kH264:
       failCheck(__FILE__, __LINE__, "video is coded in whole pictures (picture_planes.h)");
+    case BandEncoding::kCompactDepth:
+      VIEWLOOM_CHECK(pixels.plane == AtlasPlane::kDepth);
+      if (!compact_depth_) compact_depth_ = std::make_unique<CompactDepthEncoder>(pool_);
+      band.bytes = compact_depth_->encode(pixels);
+      break;
   }
   return band;
 }

@@ -10,6 +10,7 @@
 
 namespace viewloom {
 
+class CompactDepthEncoder;
 class JpegEncoder;
 class LosslessEncoder;
 
@@ -34,6 +35,8 @@ class BandEncoder {
  private:
   std::unique_ptr<JpegEncoder> jpeg_;
   std::unique_ptr<LosslessEncoder> lossless_;
+  std::unique_ptr<CompactDepthEncoder> compact_depth_;  // few displays need it
+  BytePool& pool_;
 };
 
 }  // namespace viewloom

@@ -62,7 +62,7 @@ LAYERS = {
     "server/retime": (["base", "frame", "engine/sweep", SHADERS_SHARED], ["glm", "highway"]),
     "server/temporal": (["base", "frame", "display"], ["absl", "glm"]),
     "server/encode": (["base", "jpeg", "frame", "display", "video", SHADERS_SHARED],
-                      ["absl", "jpeg", "png", "zstd"]),
+                      ["absl", "jpeg", "png", "zlib", "zstd"]),
     # Poses come in as frames do.
     "server/eye_poses": (["base", "display"], []),
     "server/publish": (["base", "frame", "display", "admission", "eye_poses", BAND], ["absl"]),
@@ -78,7 +78,7 @@ LAYERS = {
                     "messages", "metrics", BAND, "publish", "tls", "video/h264_parameters.h"],
                    ["absl", "grpc", "protobuf"]),
     "server/web": (["base", "access", "certificates", "frame", "display", "admission", "messages",
-                    "metrics", "publish", "tls", "video/h264_parameters.h", BAND],
+                    "eye_poses", "metrics", "publish", "tls", "video/h264_parameters.h", BAND],
                    ["absl", "boost", "nlohmann", "openssl", "protobuf"]),
     "client/text": (["base", "frame/size.h"], ["absl", "sdl"]),
     "client/patterns": (["base", "frame", "synthetic", "text"], ["absl", "glm"]),

@@ -149,11 +149,23 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
 absl::Status validateEncodingSpec(const EncodingSpec& encoding) {
   VIEWLOOM_RETURN_IF_ERROR(checkRange(encoding.jpeg_quality, {1, 100}, "jpeg_quality"));
   VIEWLOOM_RETURN_IF_ERROR(checkRange(encoding.video_qp, {1, 51}, "video_qp"));
+  if (encoding.color == BandEncoding::kCompactDepth) {
+    return invalidField("color",
+                        "COMPACT_DEPTH holds no color; accepted is JPEG, JPEG_PLANES, H264, "
+                        "ZSTD or RAW");
+  }
   if (encoding.planes == BandEncoding::kZstd || encoding.planes == BandEncoding::kRaw) {
     return absl::OkStatus();
   }
+  if (encoding.planes != BandEncoding::kCompactDepth) {
+    return invalidField("planes",
+                        "JPEG and H264 would change depth and mask; accepted is ZSTD, RAW or, for "
+                        "depth alone, COMPACT_DEPTH");
+  }
+  if (!encoding.with_mask && !encoding.with_depth_codes) return absl::OkStatus();
   return invalidField("planes",
-                      "JPEG and H264 would change depth and mask; accepted is ZSTD or RAW");
+                      "COMPACT_DEPTH holds depth alone; with masks or depth codes, accepted is "
+                      "ZSTD or RAW");
 }
 
 uint32_t matchedVideoQp(uint32_t jpeg_quality) {

@@ -74,9 +74,9 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec);
 std::optional<DisplaySpec> withFocalDistance(DisplaySpec spec, double focal_distance_m);
 
 // Packing of a band. kJpegPlanes: red, green and blue as one grey JPEG each. kH264: one picture of
-// a stack (video_stack.h).
-enum class BandEncoding : uint8_t { kJpeg, kJpegPlanes, kZstd, kRaw, kH264 };
-inline constexpr size_t kBandEncodingCount = 5;
+// a stack (video_stack.h). kCompactDepth: see encode/compact_depth.h.
+enum class BandEncoding : uint8_t { kJpeg, kJpegPlanes, kZstd, kRaw, kH264, kCompactDepth };
+inline constexpr size_t kBandEncodingCount = 6;
 enum class Chroma : uint8_t { k420, k444 };
 
 // Packing of the atlas.
@@ -87,7 +87,7 @@ struct EncodingSpec {
   bool with_depth = false;
   bool with_mask = false;
   bool with_depth_codes = false;              // displays with 16-bit depth need them
-  BandEncoding planes = BandEncoding::kZstd;  // kZstd or kRaw
+  BandEncoding planes = BandEncoding::kZstd;  // kZstd or kRaw; of depth alone, kCompactDepth
   uint32_t video_qp = 24;                     // quantisation of kH264, 1..51
 
   bool operator==(const EncodingSpec&) const = default;

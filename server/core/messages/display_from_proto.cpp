@@ -200,7 +200,8 @@ constexpr EnumRow<v1::BandEncoding, BandEncoding> kColorEncodings[] = {
     {v1::BAND_ENCODING_JPEG_PLANES, BandEncoding::kJpegPlanes},
     {v1::BAND_ENCODING_ZSTD, BandEncoding::kZstd},
     {v1::BAND_ENCODING_RAW, BandEncoding::kRaw},
-    {v1::BAND_ENCODING_H264, BandEncoding::kH264}};
+    {v1::BAND_ENCODING_H264, BandEncoding::kH264},
+    {v1::BAND_ENCODING_COMPACT_DEPTH, BandEncoding::kCompactDepth}};
 
 constexpr EnumRow<v1::BandEncoding, BandEncoding> kPlaneEncodings[] = {
     {v1::BAND_ENCODING_UNSPECIFIED, BandEncoding::kZstd},
@@ -208,7 +209,8 @@ constexpr EnumRow<v1::BandEncoding, BandEncoding> kPlaneEncodings[] = {
     {v1::BAND_ENCODING_JPEG_PLANES, BandEncoding::kJpegPlanes},
     {v1::BAND_ENCODING_ZSTD, BandEncoding::kZstd},
     {v1::BAND_ENCODING_RAW, BandEncoding::kRaw},
-    {v1::BAND_ENCODING_H264, BandEncoding::kH264}};
+    {v1::BAND_ENCODING_H264, BandEncoding::kH264},
+    {v1::BAND_ENCODING_COMPACT_DEPTH, BandEncoding::kCompactDepth}};
 
 constexpr EnumRow<v1::ChromaSubsampling, Chroma> kChromas[] = {
     {v1::CHROMA_SUBSAMPLING_UNSPECIFIED, Chroma::k420},

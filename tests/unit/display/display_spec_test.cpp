@@ -176,6 +176,12 @@ TEST(ValidateEncodingSpec, refusesWhatNoEncoderDoes) {
   EXPECT_EQ(fieldOf(validateEncodingSpec({.jpeg_quality = 0})), "jpeg_quality");
   EXPECT_EQ(fieldOf(validateEncodingSpec({.jpeg_quality = 101})), "jpeg_quality");
   EXPECT_EQ(fieldOf(validateEncodingSpec({.planes = BandEncoding::kJpeg})), "planes");
+  EXPECT_TRUE(
+      validateEncodingSpec({.with_depth = true, .planes = BandEncoding::kCompactDepth}).ok());
+  EXPECT_EQ(fieldOf(validateEncodingSpec(
+                {.with_depth = true, .with_mask = true, .planes = BandEncoding::kCompactDepth})),
+            "planes");
+  EXPECT_EQ(fieldOf(validateEncodingSpec({.color = BandEncoding::kCompactDepth})), "color");
 }
 
 TEST(DisplayKey, isTheSameForPanelsThatDifferInTheirSerialNumber) {
