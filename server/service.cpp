@@ -164,7 +164,7 @@ void Service::Parts::openHttp(const Config& config, const Clock& clock) {
   HttpOptions options = httpOptions(config.http, connection_shares.http);
   options.tls = material();
   http.emplace(
-      std::move(options), directory, broadcaster, metrics, clock, access,
+      std::move(options), directory, broadcaster, *engine_room, metrics, clock, access,
       [this] { return grpcHealth(); }, memory);
 }
 

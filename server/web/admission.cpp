@@ -12,6 +12,7 @@
 #include "admission/display_price.h"
 #include "base/printable.h"
 #include "base/str_cat.h"
+#include "display/tracked_eyes.h"
 #include "web/qr_code.h"
 #include "web/session.h"
 
@@ -174,10 +175,13 @@ absl::StatusOr<AdmittedPicture> admitPicture(const WebContext& context, const Ht
 }
 
 absl::StatusOr<QuotaPartPtr> holdDisplay(const WebContext& context, const Caller& caller,
-                                         const WatchRequest& request, const QuotaPart* replaced) {
+                                         const WatchRequest& request, const QuotaPart* replaced,
+                                         const void* viewer) {
   const auto& [stream, display, encoding] = request;
+  std::string key = strCat(stream, " ", displayKey(display), encodingKey(encoding));
+  if (isTracked(display)) key += strCat("of ", absl::Hex(reinterpret_cast<uintptr_t>(viewer)));
   absl::StatusOr<QuotaPartPtr> held =
-      caller.holdDisplay({.key = strCat(stream, " ", displayKey(display), encodingKey(encoding)),
+      caller.holdDisplay({.key = std::move(key),
                           .pixels = atlasPixels(display),
                           .rate_hz = pictureRate(display, context.streams.rateHz(stream))},
                          replaced);

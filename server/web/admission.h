@@ -34,9 +34,11 @@ absl::StatusOr<AdmittedPicture> admitPicture(const WebContext& context, const Ht
                                              Url url, const QuiltAddressForm& form);
 
 // The part of the caller's quota that a display takes. `replaced`: see Caller::holdDisplay.
+// `viewer`: whoever watches it; a tracked display is that viewer's alone.
 absl::StatusOr<QuotaPartPtr> holdDisplay(const WebContext& context, const Caller& caller,
                                          const WatchRequest& request,
-                                         const QuotaPart* replaced = nullptr);
+                                         const QuotaPart* replaced = nullptr,
+                                         const void* viewer = nullptr);
 
 // Answers /api/link?target=ADDRESS&seconds=300: the address of a picture, with a link that shows it
 // to whoever has it.

@@ -79,6 +79,26 @@ bool isVideo(const EncodedAtlas& atlas) {
   return atlas.encoding.color == BandEncoding::kH264;
 }
 
+// Rows, and bytes, of each band: compact depth is unpacked band by band.
+json depthBandsJson(const EncodedAtlas& atlas) {
+  json bands = json::array();
+  for (const EncodedBand& band : atlas.bands) {
+    if (band.plane != AtlasPlane::kDepth || band.image_index != 0) continue;
+    bands.push_back({{"first_row", band.first_row},
+                     {"row_count", band.row_count},
+                     {"bytes", band.bytes->size()}});
+  }
+  return bands;
+}
+
+// Which eye poses a tracked display shows. Times of the client are its own clock's.
+json eyesJson(const EncodedAtlas& atlas) {
+  return {{"time_ns", std::to_string(atlas.eye_poses_time_ns)},
+          {"predicted_display_time_ns", std::to_string(atlas.predicted_display_time_ns)},
+          {"latched_ns", std::to_string(atlas.eye_poses_latched_ns)},
+          {"age_ns", atlas.eye_poses_age_ns}};
+}
+
 json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
   json header = {{"sequence", atlas.sequence},
                  {"frame_number", std::to_string(atlas.frame_number)},
@@ -105,6 +125,10 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
       header["picture_bytes"].push_back(picture->size());
     }
   }
+  if (atlas.encoding.with_depth && atlas.encoding.planes == BandEncoding::kCompactDepth) {
+    header["depth_bands"] = depthBandsJson(atlas);
+  }
+  if (atlas.eye_poses_latched_ns != 0) header["eyes"] = eyesJson(atlas);
   header["views_outside"] = outsideJson(atlas.outside_shares);
   if (atlas.depth_budget) header["depth_budget"] = budgetJson(*atlas.depth_budget);
   return header;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One atlas as one binary WebSocket message: the length of a JSON header (4 bytes, little-endian),
-// the header, and the atlas as one baseline JPEG, or as pictures of H.264.
+// the header, the atlas as one baseline JPEG or as pictures of H.264, and the bands of its depth
+// where that was asked for.
 #pragma once
 
 #include <array>

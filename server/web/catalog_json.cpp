@@ -16,6 +16,25 @@ json sizeJson(SizePx size_px) {
   return {{"width", size_px.width}, {"height", size_px.height}};
 }
 
+constexpr size_t kListedViewsMax = 2;
+
+json cameraJson(const Camera& camera) {
+  const auto& [pose, intrinsics] = camera;
+  return {{"pose",
+           {{"position",
+             {{"x", pose.position_m.x}, {"y", pose.position_m.y}, {"z", pose.position_m.z}}},
+            {"orientation",
+             {{"x", pose.orientation.x},
+              {"y", pose.orientation.y},
+              {"z", pose.orientation.z},
+              {"w", pose.orientation.w}}}}},
+          {"intrinsics",
+           {{"focal_x_px", intrinsics.focal_px.x},
+            {"focal_y_px", intrinsics.focal_px.y},
+            {"principal_x_px", intrinsics.principal_px.x},
+            {"principal_y_px", intrinsics.principal_px.y}}}};
+}
+
 json streamJson(const StreamEntry& entry, uint32_t subscriber_count) {
   return {{"name", entry.name},
           {"live", entry.live},
@@ -60,6 +79,9 @@ json layoutJson(const AtlasLayout& layout) {
                     {"focal_distance_m", layout.focal_distance_m},
                     {"suffix", layout.suffix}};
   if (layout.stack) described["video"] = stackJson(*layout.stack);
+  if (layout.views.size() > kListedViewsMax) return described;
+  described["views"] = json::array();
+  for (const View& view : layout.views) described["views"].push_back(cameraJson(view.camera));
   return described;
 }
 

@@ -12,6 +12,7 @@
 
 namespace viewloom {
 
+// With the cameras of the views, where there are one or two.
 nlohmann::json layoutJson(const AtlasLayout& layout);
 nlohmann::json encodingJson(const EncodingSpec& encoding);
 // Lists hold the streams that the caller sees.

@@ -63,7 +63,7 @@ tcp::acceptor listen(net::io_context& io, const HttpOptions& options) {
 
 struct HttpServer::State {
   State(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
-        const Metrics& metrics, const Clock& clock, AccessControl& access,
+        EyeSink& eyes, const Metrics& metrics, const Clock& clock, AccessControl& access,
         std::function<absl::Status()> grpc_health, MemoryBudget& memory)
       : io(static_cast<int>(options.thread_count)),
         acceptor(listen(io, options)),
@@ -73,6 +73,7 @@ struct HttpServer::State {
                 std::move(grpc_health),
                 streams,
                 broadcaster,
+                eyes,
                 metrics,
                 clock,
                 access,
@@ -218,10 +219,10 @@ ConnectionList HttpServer::State::living() {
 }
 
 HttpServer::HttpServer(HttpOptions options, const StreamDirectory& streams,
-                       Broadcaster& broadcaster, const Metrics& metrics, const Clock& clock,
-                       AccessControl& access, std::function<absl::Status()> grpc_health,
-                       MemoryBudget& memory)
-    : state_(std::make_unique<State>(std::move(options), streams, broadcaster, metrics, clock,
+                       Broadcaster& broadcaster, EyeSink& eyes, const Metrics& metrics,
+                       const Clock& clock, AccessControl& access,
+                       std::function<absl::Status()> grpc_health, MemoryBudget& memory)
+    : state_(std::make_unique<State>(std::move(options), streams, broadcaster, eyes, metrics, clock,
                                      access, std::move(grpc_health), memory)) {
   State& state = *state_;
   state.startAccepting();

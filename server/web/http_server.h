@@ -28,7 +28,7 @@ class HttpServer {
   // handed in outlives the server.
   // `grpc_health`: whether gRPC clients would get in, for /healthz; is called from any thread.
   HttpServer(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
-             const Metrics& metrics, const Clock& clock, AccessControl& access,
+             EyeSink& eyes, const Metrics& metrics, const Clock& clock, AccessControl& access,
              std::function<absl::Status()> grpc_health, MemoryBudget& memory = unboundedMemory());
   // Drains first.
   ~HttpServer();

@@ -102,6 +102,7 @@ absl::StatusOr<WatchRequest> requestOf(const AddressParts& parts) {
   VIEWLOOM_RETURN_IF_ERROR(asked.status());
   absl::StatusOr<WatchRequest> request = makeWatchRequest(*asked);
   if (!request.ok()) return inParameters(request.status(), parts.parameters);
+  VIEWLOOM_RETURN_IF_ERROR(checkUntracked(request->display));
   if (request->encoding.color == BandEncoding::kJpeg) return request;
   return invalidField("encoding.color",
                       "stills and motion JPEG are JPEG; accepted here is BAND_ENCODING_JPEG");

@@ -3,8 +3,6 @@
 
 #include <new>
 
-#include <nlohmann/json.hpp>
-
 #include "admission/request_boundary.h"
 #include "base/printable.h"
 #include "messages/message_from_json.h"
@@ -22,10 +20,6 @@ constexpr size_t kUnderWayCountMax = 2;
 // A close frame holds 125 bytes, two of them the code.
 constexpr size_t kCloseReasonBytesMax = 123;
 
-std::string pongJson(uint64_t number) {
-  return nlohmann::json{{"pong", number}}.dump();
-}
-
 }  // namespace
 
 Viewer::Viewer(WebContext& context, Caller caller, WebStream stream, QueryParameters parameters,
@@ -38,7 +32,8 @@ Viewer::Viewer(WebContext& context, Caller caller, WebStream stream, QueryParame
       write_end_(socket_.get_executor()),
       pace_(context.options.message_rate),
       parameters_(std::move(parameters)),
-      identity_(std::move(identity)) {
+      identity_(std::move(identity)),
+      eyes_(context) {
   context_.metrics.subscribers[Transport::kWeb].add(1);
 }
 
@@ -100,7 +95,7 @@ absl::Status Viewer::subscribe(const AskedDisplay& asked) {
   VIEWLOOM_RETURN_IF_ERROR(request.status());
   VIEWLOOM_RETURN_IF_ERROR(checkStream(request->stream, caller_, context_.streams));
   absl::StatusOr<QuotaPartPtr> quota =
-      holdDisplay(context_, caller_, *request, inbox_ ? inbox_->quota() : nullptr);
+      holdDisplay(context_, caller_, *request, inbox_ ? inbox_->quota() : nullptr, this);
   VIEWLOOM_RETURN_IF_ERROR(quota.status());
   const std::weak_ptr<Viewer> viewer = weak_from_this();
   const auto executor = socket_.get_executor();
@@ -112,12 +107,14 @@ absl::Status Viewer::subscribe(const AskedDisplay& asked) {
         });
       },
       identity_, *std::move(quota));
-  auto subscription =
-      context_.broadcaster.subscribe(request->stream, request->display, request->encoding, inbox);
+  EyeTrackPtr track = eyes_.trackFor(request->display);
+  auto subscription = context_.broadcaster.subscribe(request->stream, request->display,
+                                                     request->encoding, inbox, track);
   VIEWLOOM_RETURN_IF_ERROR(subscription.status());
   if (inbox_) dropped_before_ += inbox_->replacedCount();
   inbox_ = std::move(inbox);
   subscription_ = *std::move(subscription);
+  eyes_.watch(request->display, subscription_->displayId(), std::move(track));
   asked_ = asked;
   return absl::OkStatus();
 }
@@ -136,7 +133,7 @@ net::awaitable<void> Viewer::readMessages() {
     if (absl::IsInternal(status)) {
       failure_ = status;
     } else if (!status.ok()) {
-      pending_error_ = errorJson(status);
+      replies_.error(errorJson(status));
     }
     wake();
     co_await keepPace(bytes.size(), error);
@@ -168,14 +165,23 @@ absl::Status Viewer::takeMessage(std::string_view text) {
       ++change_count_;
       return withFieldPrefix(change(message.change()), "change");
     case v1::ViewerMessage::kPing:
-      pending_pong_ = message.ping();
+      replies_.pong(message.ping());
+      return absl::OkStatus();
+    case v1::ViewerMessage::kEyePoses:
+      return eyes_.take(message.eye_poses());
+    case v1::ViewerMessage::kPresented:
+      eyes_.notePresented(message.presented());
+      return absl::OkStatus();
+    case v1::ViewerMessage::kClockProbe:
+      replies_.clock(message.clock_probe().client_time_ns(), context_.clock.nowNs());
       return absl::OkStatus();
     case v1::ViewerMessage::MESSAGE_NOT_SET:
       break;
   }
   return invalidField("message",
                       "the message is empty; accepted is {\"shown\": DELIVERY}, {\"change\": "
-                      "{\"display\": ..., \"encoding\": ...}} or {\"ping\": NUMBER}");
+                      "{\"display\": ..., \"encoding\": ...}}, {\"eye_poses\": {\"eyes\": [...]}}, "
+                      "{\"presented\": ...}, {\"clock_probe\": ...} or {\"ping\": NUMBER}");
 }
 
 absl::Status Viewer::change(const v1::ChangeDisplay& changes) {
@@ -209,14 +215,8 @@ net::awaitable<void> Viewer::writeMessages() {
 net::awaitable<void> Viewer::writeUntilEnd() {
   ErrorCode error;
   while (!error && !gone_) {
-    if (pending_error_) {
-      std::string text = *std::exchange(pending_error_, std::nullopt);
-      co_await writeText(std::move(text), error);
-      continue;
-    }
-    if (pending_pong_) {
-      std::string text = pongJson(*std::exchange(pending_pong_, std::nullopt));
-      co_await writeText(std::move(text), error);
+    if (std::optional<std::string> text = replies_.take(context_.clock.nowNs())) {
+      co_await writeText(*std::move(text), error);
       continue;
     }
     std::optional<absl::Status> ended = failure_ ? failure_ : inbox_->ended();
@@ -257,6 +257,7 @@ net::awaitable<void> Viewer::writeText(std::string text, ErrorCode& error) {
 net::awaitable<void> Viewer::writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& error) {
   const int64_t now_ns = context_.clock.nowNs();
   under_way_.push_back({++delivery_count_, now_ns});
+  eyes_.noteSent(*arrival.atlas);
   const AtlasMessage message(arrival.atlas,
                              {.delivery = delivery_count_,
                               .change_count = change_count_,

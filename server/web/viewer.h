@@ -13,7 +13,9 @@
 #include "web/atlas_inbox.h"
 #include "web/live_reader.h"
 #include "web/message_pace.h"
+#include "web/text_replies.h"
 #include "web/url.h"
+#include "web/viewer_eyes.h"
 #include "web/watch_request.h"
 #include "web/web_context.h"
 #include "web/web_stream.h"
@@ -21,7 +23,7 @@
 namespace viewloom {
 
 // Down go atlases (see atlas_message.h; their header also carries "delivery", which counts from 1)
-// and text messages {"error": ...}. Up come proto ViewerMessages as JSON.
+// and text messages (text_replies.h). Up come proto ViewerMessages as JSON.
 // At most two atlases are under way to a client; of those that come meanwhile only the newest is
 // kept.
 //
@@ -76,13 +78,13 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   const QueryParameters parameters_;
   const std::string identity_;
   AskedDisplay asked_;  // as it is served
+  ViewerEyes eyes_;
   std::shared_ptr<AtlasInbox> inbox_;
   std::unique_ptr<Broadcaster::Subscription> subscription_;
   std::deque<UnderWay> under_way_;
-  std::optional<absl::Status> failure_;       // INTERNAL: the session ends
-  std::optional<std::string> pending_error_;  // the newest
-  std::optional<uint64_t> pending_pong_;      // the newest
-  uint64_t change_count_ = 0;                 // asked for, also in vain
+  std::optional<absl::Status> failure_;  // INTERNAL: the session ends
+  TextReplies replies_;
+  uint64_t change_count_ = 0;  // asked for, also in vain
   uint64_t delivery_count_ = 0;
   uint64_t dropped_before_ = 0;  // by the displays watched earlier
   int64_t shown_ns_ = 0;

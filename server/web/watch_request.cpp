@@ -18,11 +18,6 @@ constexpr const char* kElsewhere = "; use `viewloom watch` or a gRPC client for 
 
 // Browsers, players and files hold a single image.
 absl::Status checkDisplay(const DisplaySpec& display) {
-  if (isTracked(display)) {
-    return invalidField(
-        "display.stereo.tracked",
-        strCat("tracked eyes are not served over HTTP; accepted here is false", kElsewhere));
-  }
   const TileGrid grid = tileGridOf(display);
   if (grid.image_count == 1) return absl::OkStatus();
   return invalidField(strCat("display.", grid.size_field),
@@ -48,10 +43,15 @@ absl::StatusOr<v1::AtlasEncoding> forWeb(const v1::AtlasEncoding& asked) {
   if (encoding.planes() == v1::BAND_ENCODING_UNSPECIFIED) {
     encoding.set_planes(v1::BAND_ENCODING_RAW);
   }
-  if (encoding.planes() == v1::BAND_ENCODING_RAW) return encoding;
+  if (encoding.planes() == v1::BAND_ENCODING_RAW ||
+      encoding.planes() == v1::BAND_ENCODING_COMPACT_DEPTH) {
+    return encoding;
+  }
   return invalidField(
       "encoding.planes",
-      strCat("the web serves depth unpacked only; accepted here is BAND_ENCODING_RAW", kElsewhere));
+      strCat("the web serves depth raw or compact; accepted here is BAND_ENCODING_RAW or "
+             "BAND_ENCODING_COMPACT_DEPTH",
+             kElsewhere));
 }
 
 }  // namespace
@@ -81,6 +81,13 @@ absl::StatusOr<WatchRequest> makeWatchRequest(const QueryParameters& parameters)
   absl::StatusOr<WatchRequest> request = makeWatchRequest(*asked);
   VIEWLOOM_RETURN_IF_ERROR(inParameters(request.status(), parameters));
   return request;
+}
+
+absl::Status checkUntracked(const DisplaySpec& display) {
+  if (!isTracked(display)) return absl::OkStatus();
+  return invalidField("display.stereo.tracked",
+                      "pictures and streams over HTTP take no eye poses; accepted here is false; "
+                      "use the WebSocket /ws, `viewloom watch` or a gRPC client");
 }
 
 absl::Status checkStream(const std::string& name, const Caller& caller,

@@ -12,6 +12,7 @@
 #include "access/access_control.h"
 #include "admission/memory_budget.h"
 #include "base/clock.h"
+#include "eye_poses/eye_track.h"
 #include "metrics/metrics.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
@@ -54,6 +55,7 @@ struct WebContext {
   const std::function<absl::Status()> grpc_health;
   const StreamDirectory& streams;
   Broadcaster& broadcaster;
+  EyeSink& eyes;
   const Metrics& metrics;
   const Clock& clock;
   AccessControl& access;

@@ -86,8 +86,8 @@ int main(int argc, char** argv) {
   viewloom::AccessControl access({.token_file = token_file == nullptr ? "" : token_file}, clock);
   viewloom::HttpOptions http_options = httpOptions(options);
   http_options.allowed_origins = allowedOrigins(argc, argv);
-  viewloom::HttpServer server(std::move(http_options), streams, broadcaster, metrics, clock, access,
-                              [] { return absl::OkStatus(); });
+  viewloom::HttpServer server(std::move(http_options), streams, broadcaster, *painted, metrics,
+                              clock, access, [] { return absl::OkStatus(); });
   std::cout << server.url() << std::endl;
 
   const int rate_hz = options.at("--rate-hz");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/check.h"
+#include "encode/compact_depth.h"
 
 namespace viewloom {
 namespace {
@@ -18,6 +19,10 @@ namespace {
 constexpr SizePx kSourceSize{1280, 720};
 constexpr uint32_t kBitCount = 8;
 constexpr int64_t kMs = 1'000'000;
+constexpr double kFocal_m = 2;
+// The cone of a tracked display.
+constexpr uint32_t kConeViewCount = 48;
+constexpr double kCone_rad = 40 * 3.14159265358979 / 180;
 // Bands of a real atlas are cut at restart markers; joined they are one JPEG wherever they are cut.
 constexpr size_t kBandCount = 3;
 
@@ -51,22 +56,38 @@ Rgb flatPixel(uint32_t view, uint32_t view_count) {
   return {level, level, level};
 }
 
-std::vector<uint8_t> paintAtlas(const AtlasLayout& layout, uint64_t frame, bool is_flat) {
+// Views of a cone, and which of them an atlas shows from which on.
+struct PaintedViews {
+  uint32_t count = 1;
+  uint32_t first = 0;
+};
+
+// View count of the whole cone. Views of a part of it keep their numbers in the whole cone.
+PaintedViews viewsOf(const AtlasLayout& layout) {
+  const double part = layout.cone_end > layout.cone_begin ? layout.cone_end - layout.cone_begin : 1;
+  const auto count =
+      static_cast<uint32_t>(std::lround(static_cast<double>(layout.views.size()) / part));
+  return {count, static_cast<uint32_t>(std::lround(layout.cone_begin * count))};
+}
+
+PaintedViews viewsAt(const TrackedEye& eye) {
+  const double share = std::atan(eye.pose.position_m.x / kFocal_m) / kCone_rad + 0.5;
+  const double number = std::clamp(share * kConeViewCount - 0.5, 0.0, kConeViewCount - 1.0);
+  return {kConeViewCount, static_cast<uint32_t>(std::lround(number))};
+}
+
+std::vector<uint8_t> paintAtlas(const AtlasLayout& layout, const PaintedViews& views,
+                                uint64_t frame, bool is_flat) {
   std::vector<uint8_t> pixels(layout.size_px.area() * 3, 0);
   const SizePx tile = layout.tile_size_px;
-  // View count of the whole cone. Views of a part of it keep their numbers in the whole cone.
-  const double part = layout.cone_end > layout.cone_begin ? layout.cone_end - layout.cone_begin : 1;
-  const auto view_count =
-      static_cast<uint32_t>(std::lround(static_cast<double>(layout.views.size()) / part));
-  const auto first = static_cast<uint32_t>(std::lround(layout.cone_begin * view_count));
   for (uint32_t tile_view = 0; tile_view < layout.views.size(); ++tile_view) {
     const TileOrigin origin = layout.tileOrigin(tile_view);
-    const uint32_t view = first + tile_view;
+    const uint32_t view = views.first + tile_view;
     for (uint32_t y = 0; y < tile.height; ++y) {
       size_t at = (size_t{origin.y_px + y} * layout.size_px.width + origin.x_px) * 3;
       for (uint32_t x = 0; x < tile.width; ++x) {
-        const Rgb pixel =
-            is_flat ? flatPixel(view, view_count) : tilePixel(tile, x, y, view, view_count, frame);
+        const Rgb pixel = is_flat ? flatPixel(view, views.count)
+                                  : tilePixel(tile, x, y, view, views.count, frame);
         for (const uint8_t channel : pixel) pixels[at++] = channel;
       }
     }
@@ -90,7 +111,7 @@ std::vector<uint8_t> encodeJpeg(const std::vector<uint8_t>& pixels, SizePx size_
 }
 
 // 1/Z from 0.25 / m at a tile's left to 1 / m at its right; nothing in padding.
-EncodedBand paintDepth(const AtlasLayout& layout) {
+EncodedBand paintDepth(const AtlasLayout& layout, BandEncoding encoding) {
   std::vector<float> inv_z(layout.size_px.area(), 0);
   const SizePx tile = layout.tile_size_px;
   for (uint32_t view = 0; view < layout.views.size(); ++view) {
@@ -103,9 +124,21 @@ EncodedBand paintDepth(const AtlasLayout& layout) {
     }
   }
   const auto* bytes = reinterpret_cast<const uint8_t*>(inv_z.data());
-  EncodedBand band{.plane = AtlasPlane::kDepth, .encoding = BandEncoding::kRaw};
+  EncodedBand band{.plane = AtlasPlane::kDepth, .encoding = encoding};
   band.row_count = layout.size_px.height;
-  band.bytes = std::make_shared<std::vector<uint8_t>>(bytes, bytes + inv_z.size() * sizeof(float));
+  const std::span<const uint8_t> samples(bytes, inv_z.size() * sizeof(float));
+  if (encoding == BandEncoding::kCompactDepth) {
+    BytePool pool(1);
+    BandPixels pixels;
+    pixels.plane = AtlasPlane::kDepth;
+    pixels.row_count = layout.size_px.height;
+    pixels.width_px = layout.size_px.width;
+    pixels.bytes = samples;
+    pixels.stride_bytes = pixels.width_px * sizeof(float);
+    band.bytes = CompactDepthEncoder(pool).encode(pixels);
+    return band;
+  }
+  band.bytes = std::make_shared<std::vector<uint8_t>>(samples.begin(), samples.end());
   return band;
 }
 
@@ -151,23 +184,35 @@ void PaintedStream::noteDemand() {
   changed_.notify_all();
 }
 
+void PaintedStream::serveEyes(uint64_t display_id) {
+  std::lock_guard lock(mutex_);
+  moved_.insert(display_id);
+  changed_.notify_all();
+}
+
 void PaintedStream::run(const std::stop_token& stop) {
   for (;;) {
     bool joiners_only = false;
+    std::set<uint64_t> moved;
     {
       std::unique_lock lock(mutex_);
-      const auto has_work = [this] { return demand_ || wanted_frame_ != painted_frame_; };
+      const auto has_work = [this] {
+        return demand_ || !moved_.empty() || wanted_frame_ != painted_frame_;
+      };
       if (!changed_.wait(lock, stop, has_work)) return;
       joiners_only = wanted_frame_ == painted_frame_;
       painted_frame_ = wanted_frame_;
       demand_ = false;
+      moved.swap(moved_);
     }
     if (!joiners_only) {
       streams_.countReceived(name_);
       streams_.noteResident(name_, painted_frame_, kSourceSize, 2, SourceStats{});
     }
     for (const ActiveDisplayPtr& display : broadcaster_.displays(name_)) {
-      if (!joiners_only || broadcaster_.newest(display->id) == nullptr) paint(*display);
+      const bool is_asked =
+          broadcaster_.newest(display->id) == nullptr || moved.contains(display->id);
+      if (!joiners_only || is_asked) paint(*display);
     }
   }
 }
@@ -175,9 +220,12 @@ void PaintedStream::run(const std::stop_token& stop) {
 void PaintedStream::paint(const ActiveDisplay& display) {
   const Camera camera{.pose = {},
                       .intrinsics = {.focal_px = {1000, 1000}, .principal_px = {640, 360}}};
-  auto layout = makeAtlasLayout(display.spec, {.source_intrinsics = camera.intrinsics,
-                                               .source_size_px = kSourceSize,
-                                               .focal_distance_m = 2});
+  const EyePosesPtr poses = display.eyes ? display.eyes->newest() : nullptr;
+  auto layout = makeAtlasLayout(display.spec,
+                                {.source_intrinsics = camera.intrinsics,
+                                 .source_size_px = kSourceSize,
+                                 .focal_distance_m = kFocal_m},
+                                poses.get());
   if (!layout.ok()) {
     broadcaster_.refuse(display.id, layout.status());
     return;
@@ -189,6 +237,11 @@ void PaintedStream::paint(const ActiveDisplay& display) {
   atlas.layout = std::make_shared<AtlasLayout>(*std::move(layout));
   broadcaster_.noteLayout(display.id, atlas.layout);
   atlas.encoding = display.encoding;
+  if (poses) {
+    atlas.eye_poses_time_ns = poses->time_ns;
+    atlas.predicted_display_time_ns = poses->predicted_display_time_ns;
+    atlas.eye_poses_latched_ns = poses->received_ns;
+  }
   atlas.times = {.receive_ns = 2 * kMs,
                  .decode_ns = 3 * kMs,
                  .upload_ns = 4 * kMs,
@@ -200,10 +253,13 @@ void PaintedStream::paint(const ActiveDisplay& display) {
   atlas.coverage = {.hit = 900, .hit_assumed = 40, .hidden = 30, .outside = 20, .empty = 10};
   const SizePx size_px = atlas.layout->size_px;
   std::this_thread::sleep_for(per_megapixel_ * (static_cast<double>(size_px.area()) / 1e6));
-  atlas.bands = cutIntoBands(
-      encodeJpeg(paintAtlas(*atlas.layout, painted_frame_, is_flat_), size_px, display.encoding),
-      size_px.height);
-  if (display.encoding.with_depth) atlas.bands.push_back(paintDepth(*atlas.layout));
+  PaintedViews views = viewsOf(*atlas.layout);
+  if (display.eyes) views = viewsAt(poses ? poses->eyes[0] : TrackedEye{});
+  const std::vector<uint8_t> pixels = paintAtlas(*atlas.layout, views, painted_frame_, is_flat_);
+  atlas.bands = cutIntoBands(encodeJpeg(pixels, size_px, display.encoding), size_px.height);
+  if (display.encoding.with_depth) {
+    atlas.bands.push_back(paintDepth(*atlas.layout, display.encoding.planes));
+  }
   broadcaster_.publish(std::make_shared<const EncodedAtlas>(std::move(atlas)));
 }
 

@@ -69,6 +69,42 @@ TEST(AtlasMessage, holdsTheViewsThatLookPastTheSource) {
             nlohmann::json::parse(R"([{"first_view": 0, "last_view": 1, "share": 0.25}])"));
 }
 
+TEST(AtlasMessage, saysWhichEyesSeeAPictureAndFromWhere) {
+  const auto atlas = someAtlas();
+  EXPECT_FALSE(headerOf(atlas).contains("eyes"));
+  EXPECT_FALSE(headerOf(atlas).at("layout").contains("views")) << "48 are too many to list";
+  atlas->eye_poses_time_ns = INT64_MAX;
+  atlas->predicted_display_time_ns = 5;
+  atlas->eye_poses_latched_ns = 7;
+  atlas->eye_poses_age_ns = 3;
+  auto layout = std::make_shared<AtlasLayout>();
+  layout->views.push_back({{.pose = {.position_m = {1, 2, 3}},
+                            .intrinsics = {.focal_px = {4, 5}, .principal_px = {6, 7}}}});
+  atlas->layout = layout;
+  const nlohmann::json header = headerOf(atlas);
+  EXPECT_EQ(header.at("eyes"), nlohmann::json::parse(R"({"time_ns": "9223372036854775807",
+      "predicted_display_time_ns": "5", "latched_ns": "7", "age_ns": 3})"));
+  EXPECT_EQ(header.at("layout").at("views"), nlohmann::json::parse(R"([{
+      "pose": {"position": {"x": 1.0, "y": 2.0, "z": 3.0},
+               "orientation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}},
+      "intrinsics": {"focal_x_px": 4.0, "focal_y_px": 5.0,
+                     "principal_x_px": 6.0, "principal_y_px": 7.0}}])"));
+}
+
+TEST(AtlasMessage, listsTheBandsOfCompactDepth) {
+  const auto atlas = someAtlas();
+  EXPECT_FALSE(headerOf(atlas).contains("depth_bands"));
+  atlas->encoding = {.with_depth = true, .planes = BandEncoding::kCompactDepth};
+  atlas->bands[2].row_count = 128;
+  atlas->bands.push_back(bandOf(AtlasPlane::kDepth, {8, 8, 8}));
+  atlas->bands[3].first_row = 128;
+  atlas->bands[3].row_count = 2;
+  EXPECT_EQ(headerOf(atlas).at("depth_bytes"), 5);
+  EXPECT_EQ(headerOf(atlas).at("depth_bands"), nlohmann::json::parse(R"([
+      {"first_row": 0, "row_count": 128, "bytes": 2},
+      {"first_row": 128, "row_count": 2, "bytes": 3}])"));
+}
+
 TEST(AtlasMessage, holdsTheTimesOfItsStages) {
   const auto atlas = someAtlas();
   atlas->times = {.build_ns = 4, .retime_ns = 5, .total_ns = 20};

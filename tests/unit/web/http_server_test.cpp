@@ -23,6 +23,12 @@ using testing::Not;
 
 constexpr std::string_view kWatch = "/ws?stream=room&preset=portrait&width=320&height=240";
 
+// Nobody tracks eyes here.
+class NoEyes final : public EyeSink {
+ public:
+  void serveEyes(uint64_t /*display_id*/) override {}
+};
+
 class FailingParts : public testing::Test {
  protected:
   FailingParts() {
@@ -34,10 +40,11 @@ class FailingParts : public testing::Test {
   }
   void start(HttpOptions options = {}) {
     options.thread_count = 1;  // one that ends would leave none
-    server_.emplace(std::move(options), streams_, broadcaster_, metrics_, clock_, access_, [this] {
-      failIf(health_fails_);
-      return absl::OkStatus();
-    });
+    server_.emplace(std::move(options), streams_, broadcaster_, eyes_, metrics_, clock_, access_,
+                    [this] {
+                      failIf(health_fails_);
+                      return absl::OkStatus();
+                    });
   }
   tcp::socket connected() {
     tcp::socket socket(io_);
@@ -80,6 +87,7 @@ class FailingParts : public testing::Test {
   std::atomic<bool> demand_fails_ = false;
   std::atomic<bool> health_fails_ = false;
   const SteadyClock clock_;
+  NoEyes eyes_;
   Metrics metrics_;
   StreamDirectory streams_{clock_, 8};
   Broadcaster broadcaster_{{}};

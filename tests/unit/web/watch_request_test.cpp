@@ -97,8 +97,10 @@ TEST_F(WatchRequests, serveKindsThatHaveNoPageAsOneJpeg) {
 
 TEST_F(WatchRequests, refuseWhatTheWebCannotCarry) {
   const std::string eye = R"("eye_size": {"width": 64, "height": 48})";
-  EXPECT_EQ(fieldAtFault({{"display", R"({"stereo": {"tracked": true, )" + eye + "}}"}}),
-            "display.stereo.tracked");
+  const auto tracked = parse({{"display", R"({"stereo": {"tracked": true, )" + eye + "}}"}});
+  ASSERT_TRUE(tracked.ok()) << tracked.status();
+  EXPECT_EQ(fieldOf(checkUntracked(tracked->display)), "display.stereo.tracked")
+      << "a still has no eyes";
   EXPECT_EQ(fieldAtFault(
                 {{"display", R"({"stereo": {"layout": "STEREO_LAYOUT_SEPARATE", )" + eye + "}}"}}),
             "display.stereo.eye_size");
@@ -111,6 +113,9 @@ TEST_F(WatchRequests, refuseWhatTheWebCannotCarry) {
   EXPECT_EQ(fieldAtFault({{"encoding", R"({"with_depth": true, "planes": "BAND_ENCODING_ZSTD"})"}}),
             "encoding.planes");
   EXPECT_EQ(parse({{"encoding", R"({"with_depth": true})"}})->encoding.planes, BandEncoding::kRaw);
+  const auto compact =
+      parse({{"encoding", R"({"with_depth": true, "planes": "BAND_ENCODING_COMPACT_DEPTH"})"}});
+  EXPECT_EQ(compact->encoding.planes, BandEncoding::kCompactDepth);
 }
 
 TEST_F(WatchRequests, nameTheFieldAtFaultAsTheApiDoes) {
