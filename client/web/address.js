@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The page's address: what is watched, as /ws takes it, and the page's own choices.
 
-// Parameters of the page: how much detail, which way to look. The others are those of /ws.
+// Parameters of the page: how much detail, which way to look, late reprojection on or off. The
+// others are those of /ws.
 export const kParameters = ['stream', 'preset', 'width', 'height', 'display', 'encoding', 'detail',
-  'mode'];
+  'mode', 'reprojection'];
 
 export function pageParameters() {
   return new URLSearchParams(location.search);

@@ -24,7 +24,7 @@ export class AtlasStream {
   #changeCount = 0;  // changes sent over this connection
 
   // Handlers: onAtlas(atlas), onLive(), onAsked() for another picture, onWaiting(reason),
-  // onRefused(error)
+  // onRefused(error), onClock(the answer to a clock_probe)
   constructor(handlers) {
     this.handlers = handlers;
     setInterval(() => this.#listen(), kTick_ms);
@@ -51,7 +51,7 @@ export class AtlasStream {
 
   // The delivery is on the screen, or was dropped: there is room for another.
   shown(delivery) {
-    this.#send({shown: delivery});
+    this.send({shown: delivery});
   }
 
   // Display and encoding as they shall be from now on, and after a reconnection. Whether the server
@@ -64,7 +64,7 @@ export class AtlasStream {
       }
     }
     this.asked = asked;
-    if (Object.keys(change).length === 0 || !this.#send({change})) return false;
+    if (Object.keys(change).length === 0 || !this.send({change})) return false;
     this.#changeCount++;
     this.handlers.onAsked();
     return true;
@@ -75,7 +75,8 @@ export class AtlasStream {
     return atlas.header.change_count >= this.#changeCount;
   }
 
-  #send(message) {
+  // A ViewerMessage (proto/web.md). Whether it went.
+  send(message) {
     if (this.#socket?.readyState !== WebSocket.OPEN) return false;
     this.#socket.send(JSON.stringify(message));
     return true;
@@ -112,8 +113,9 @@ export class AtlasStream {
     };
   }
 
-  #takeText({error}) {
+  #takeText({error, clock}) {
     if (error) this.handlers.onRefused(error);
+    if (clock) this.handlers.onClock?.(clock);
   }
 
   // A server on another machine may go, and a network on the way, without a word: browsers say
@@ -129,7 +131,7 @@ export class AtlasStream {
       this.#abandon(isOpen);
     } else if (isOpen && silent_ms > kQuiet_ms && now_ms - this.#asked_ms > kQuiet_ms) {
       this.#asked_ms = now_ms;
-      this.#send({ping: Math.round(now_ms)});
+      this.send({ping: Math.round(now_ms)});
     }
   }
 

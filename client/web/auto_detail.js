@@ -35,8 +35,6 @@ const kMotion_ms = 2000;
 
 const kMsPerNs = 1e-6;
 
-const pixelShare = ({views, detail}) => views * detail ** 2;
-
 export class AutoDetail {
   #steps = [];
   #index = 0;
@@ -53,12 +51,11 @@ export class AutoDetail {
   // onChange(): another step
   constructor(onChange) {
     this.onChange = onChange;
-    this.begin(kQuiltSteps, kQuiltSteps.findIndex(({detail}) => detail === kStart));
+    this.begin(kQuiltSteps, kQuiltSteps.indexOf(kStart));
   }
 
-  // How many views, and in how much detail: a share of their width and height.
-  get views() { return this.#steps[this.#index].views; }
-  get detail() { return this.#steps[this.#index].detail; }
+  // A share of a view's width and height.
+  get detail() { return this.#steps[this.#index]; }
 
   // Other steps, from the most detail to the least, and which of them is the first.
   begin(steps, index) {
@@ -162,7 +159,7 @@ export class AutoDetail {
 
   // Tracing and encoding grow with the number of pixels, the rest does not.
   #promised_ms(index, atlas_ms, tracedShare) {
-    const pixels = pixelShare(this.#steps[index]) / pixelShare(this.#steps[this.#index]);
+    const pixels = (this.#steps[index] / this.#steps[this.#index]) ** 2;
     return atlas_ms * (1 - tracedShare + tracedShare * pixels);
   }
 

@@ -2,7 +2,7 @@
 // Which display is watched: a preset of any kind, a quilt of one's own, or colour with depth; which
 // of its views are, and in how much detail.
 import {keepInAddress, pageParameters} from './address.js';
-import {eyeSteps, kQuiltSteps} from './detail_steps.js';
+import {kQuiltSteps} from './detail_steps.js';
 import {put} from './display_document.js';
 import {RgbdChoice} from './rgbd_choice.js';
 
@@ -11,11 +11,7 @@ const kQuiltFields = {
   'columns': 'columns', 'rows': 'rows', 'width': 'size.width', 'height': 'size.height',
   'aspect': 'aspect',
 };
-// Views around the eye: as many as cost little, fewer where that is too much.
-const kAroundEye = {look: [5, 3, 1], blend: [5, 3], single: [1]};
 const kStart = 0.25;          // detail of all views, at first
-const kWidthStep_px = 32;     // viewers of nearly one size share a display
-const kWidthMax_px = 2048;
 const kModes = ['look', 'single', 'quilt', 'panel', 'eye', 'rgbd'];
 // Modes of displays that are no quilts: they have one picture, and nothing to weave.
 const kWholeModes = ['quilt', 'single'];
@@ -34,13 +30,14 @@ export class DisplayChoice {
   #document = null;
   #steps = '';  // of detail, as text
 
-  // `seen`: which views, 'all', 'look' or 'blend' = a few around the eye, 'single', or 'middle' =
-  // that one with its depth, as large as in the quilt.
-  // autoDetail: says how much when that is automatic; eyeViews: which views there are around the
-  // eye; frameOf(aspect): px of the screen that a view covers; onChange(): another display
-  constructor(autoDetail, eyeViews, frameOf, onChange) {
+  // `seen`: which views, 'all', 'eye' = the one where the eye stands, or 'middle' = that one with
+  // its depth, as large as in the quilt.
+  // autoDetail: says how much when that is automatic; around: where the eye stands, and how large
+  // its picture is; frameOf(aspect): px of the screen that a view covers; onChange(): another
+  // display
+  constructor(autoDetail, around, frameOf, onChange) {
     this.autoDetail = autoDetail;
-    this.eyeViews = eyeViews;
+    this.around = around;
     this.frameOf = frameOf;
     this.onChange = onChange;
     this.seen = 'all';
@@ -94,7 +91,8 @@ export class DisplayChoice {
   asked(stream) {
     const display = this.#document.whole;
     const encoding = this.#document.encoding;
-    if (!this.#takeViewsAroundEye(display)) this.#takeAll(display, encoding);
+    if (this.isEye) return {stream, ...this.#eyes(display, encoding)};
+    this.#takeAll(display, encoding);
     return {stream, display, encoding};
   }
 
@@ -105,46 +103,41 @@ export class DisplayChoice {
 
   // Width of a view in full detail, px; 0 = not known.
   get fullWidth_px() {
-    const around = this.#aroundEye();
+    if (this.isEye) return this.around.fullWidth_px;
     const columns = this.isQuilt ? this.#value('columns') : 1;
-    return around ? around.width_px : columns && Math.floor(this.#full('width') / columns);
+    return columns && Math.floor(this.#full('width') / columns);
   }
 
   get #detail() {
     return this.isAutomatic ? this.autoDetail.detail : Number(byId('detail').value);
   }
 
-  // Where only views around the eye are seen: how many there are, and how large one is.
-  #aroundEye() {
-    const total = this.#value('columns') * this.#value('rows');
-    const aspect = this.#aspect;
-    if (!(this.seen in kAroundEye) || !this.isQuilt || !total || !(aspect > 0)) return null;
-    const covered_px = this.frameOf(aspect)[2];
-    const width_px = Math.ceil(covered_px / kWidthStep_px) * kWidthStep_px;
-    return {total, aspect, width_px: Math.min(kWidthMax_px, Math.max(kWidthStep_px, width_px))};
+  // Whether only the eye's own view is seen: of quilts, whose cone says where eyes can be.
+  get isEye() {
+    return this.seen === 'eye' && this.isQuilt && this.#total > 0 && this.#aspect > 0;
   }
 
-  #takeViewsAroundEye(display) {
-    const around = this.#aroundEye();
-    if (!around) return false;
-    const {total, aspect, width_px} = around;
-    const counts = kAroundEye[this.seen];
-    this.#offer(eyeSteps(counts, width_px), counts.length - 1);
-    const wanted = this.isAutomatic ? this.autoDetail.views : counts[0];
-    const count = Math.min(wanted, total);
-    if (this.eyeViews.total !== total || this.eyeViews.count !== count) {
-      this.eyeViews.spread(total, count);
+  get #total() { return this.#value('view_count') || this.#value('columns') * this.#value('rows'); }
+
+  // Angle of the cone that a quilt's views share; 0 = nobody says it.
+  get cone_rad() { return this.isQuilt ? this.#value('view_cone_rad') : 0; }
+
+  // One view for one viewer: {display, encoding}. Focus stays where it is, because it would move
+  // the frame of the picture with it.
+  #eyes({quilt, focus_following_s, ...others}, encoding) {
+    const [, , width, height] = this.frameOf(this.#aspect);
+    this.around.cone = {count: this.#total, cone_rad: this.cone_rad,
+      depthiness: quilt.depthiness, convention: quilt.convention};
+    const fixed = this.isAutomatic ? null : Number(byId('detail').value);
+    const display = this.around.asked(quilt, others, {width, height}, fixed);
+    if (this.around.late.isOn) {
+      Object.assign(encoding, {with_depth: true, planes: 'BAND_ENCODING_COMPACT_DEPTH'});
     }
-    const width = Math.max(1, Math.round(width_px * this.#detail));
-    const height = Math.max(1, Math.round(width / aspect));
-    Object.assign(display.quilt, {columns: count, rows: 1, size: {width: count * width, height},
-      aspect, ...this.eyeViews.part});
-    delete display.quilt.view_count;
-    return true;
+    return {display, encoding};
   }
 
   #takeAll(display, encoding) {
-    this.#offer(kQuiltSteps, kQuiltSteps.findIndex(({detail}) => detail === kStart));
+    this.#offer(kQuiltSteps, kQuiltSteps.indexOf(kStart));
     const field = kSizes[this.kind];
     if (!field) return;  // panels have the size of their device
     const isMiddle = this.seen === 'middle' && this.isQuilt;

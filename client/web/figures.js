@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The live figures: rate, latency by stage, drops, how rays ended.
 import {Chart, spanText} from './chart.js';
+import {latencyText} from './eye_poses.js';
 import {shownViews} from './stage.js';
 
 const kRateWindow_ms = 3000;
@@ -64,6 +65,7 @@ export class Figures {
   #shares = {};
   #facts = {};
   #drops = 0;
+  #motion = null;
 
   constructor() {
     for (const [index, [stage, label, title]] of kStages.entries()) {
@@ -81,7 +83,7 @@ export class Figures {
       this.#shares[answer] = {part, value: element('dd', {textContent: '–'}, byId('coverage'))};
     }
     for (const fact of ['Picture', 'Frame', 'Time', 'Views', 'Size', 'A view', 'Data',
-                        'Data rate']) {
+                        'Data rate', 'Motion to picture']) {
       element('dt', {textContent: fact}, byId('facts'));
       this.#facts[fact] = element('dd', {textContent: '–'}, byId('facts'));
     }
@@ -128,6 +130,11 @@ export class Figures {
 
   noteArrived() {
     this.#arrivals.push({time_ms: performance.now()});
+  }
+
+  // latency: of the eye (eye_poses.js), or null
+  noteMotion(latency) {
+    this.#motion = latency;
   }
 
   noteShown(atlas) {
@@ -222,6 +229,7 @@ export class Figures {
       'Size': `${layout.size.width} × ${layout.size.height} px`,
       'A view': `${layout.tile_size.width} × ${layout.tile_size.height} px`,
       'Data': `${(bytes / 1e6).toFixed(2)} MB`,
+      'Motion to picture': latencyText(this.#motion),
       'Data rate': `${(rate_hz * bytes * 8 / 1e6).toFixed(1)} Mbit/s`,
     };
     for (const [fact, value] of Object.entries(facts)) this.#facts[fact].textContent = value;

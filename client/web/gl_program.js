@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A WebGL2 program that covers its target with one triangle.
+// A WebGL2 program. Unless it has vertices of its own, it covers its target with one triangle.
 
 const kCover = `#version 300 es
 void main() {
@@ -17,10 +17,10 @@ function compile(gl, type, text) {
 export class GlProgram {
   #places = {};
 
-  constructor(gl, fragment) {
+  constructor(gl, fragment, vertex = kCover) {
     this.gl = gl;
     this.program = gl.createProgram();
-    gl.attachShader(this.program, compile(gl, gl.VERTEX_SHADER, kCover));
+    gl.attachShader(this.program, compile(gl, gl.VERTEX_SHADER, vertex));
     gl.attachShader(this.program, compile(gl, gl.FRAGMENT_SHADER, fragment));
     gl.linkProgram(this.program);
     if (!gl.getProgramParameter(this.program, gl.LINK_STATUS) && !gl.isContextLost()) {

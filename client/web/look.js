@@ -16,6 +16,7 @@ export class Look {
   #swayBegin_ms = null;
   #running = false;
   #drag = null;
+  #fingers = new Set();
   #active = true;
 
   // onLook(position): also again and again while it goes somewhere
@@ -27,7 +28,10 @@ export class Look {
     canvas.addEventListener('pointerdown', (event) => this.#down(event));
     canvas.addEventListener('pointermove', (event) => this.#move(event));
     for (const end of ['pointerup', 'pointercancel']) {
-      canvas.addEventListener(end, () => { this.#drag = null; });
+      canvas.addEventListener(end, ({pointerId}) => {
+        this.#fingers.delete(pointerId);
+        this.#drag = null;
+      });
     }
     canvas.addEventListener('keydown', (event) => this.#key(event));
     slider.addEventListener('input', () => this.take(slider.valueAsNumber));
@@ -53,13 +57,16 @@ export class Look {
   #down(event) {
     if (event.pointerType === 'mouse' || !this.#active) return;
     event.target.setPointerCapture(event.pointerId);
-    this.#drag = {x: event.clientX, from: this.#target};
+    this.#fingers.add(event.pointerId);
+    // Two fingers pan and step (rig_controls.js).
+    this.#drag = this.#fingers.size === 1 ? {x: event.clientX, from: this.#target} : null;
   }
 
   #move(event) {
     if (!this.#active) return;
     const width = event.target.clientWidth;
     if (event.pointerType === 'mouse') {
+      if (event.buttons !== 0) return;  // turns about the scene
       this.take((event.clientX - event.target.getBoundingClientRect().left) / width);
     } else if (this.#drag) {
       this.take(this.#drag.from - (event.clientX - this.#drag.x) / width);
@@ -67,7 +74,7 @@ export class Look {
   }
 
   #key(event) {
-    if (!this.#active) return;
+    if (!this.#active || event.shiftKey) return;
     const steps = {ArrowLeft: -1, ArrowRight: 1, PageDown: -6, PageUp: 6}[event.key];
     const ends = {Home: 0, End: 1}[event.key];
     if (steps === undefined && ends === undefined) return;

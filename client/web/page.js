@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The viewer page: joins the choices, the modes, the connection, the picture and the figures.
 import {keepInAddress, pageParameters} from './address.js';
+import {Around} from './around.js';
 import {AtlasStream} from './atlas_stream.js';
 import {AutoDetail} from './auto_detail.js';
 import {Commands} from './commands.js';
@@ -12,7 +13,6 @@ import {DisplayControls} from './display_controls.js';
 import {DisplayDocument} from './display_document.js';
 import {DisplayLists} from './display_lists.js';
 import {EyeMode} from './eye_mode.js';
-import {EyeViews} from './eye_views.js';
 import {Figures} from './figures.js';
 import {Look} from './look.js';
 import {Modes} from './modes.js';
@@ -31,7 +31,7 @@ import {Weaver} from './weaver.js';
 
 const kRetry_ms = 1000;
 const kHiddenGrace_ms = 5000;
-const kLook_ms = 250;     // from one look for a picture that stands still to the next
+const kLook_ms = 100;     // from one look for a picture that stands still to the next
 const kResized_ms = 150;  // a size that stays as long is asked for
 const kPainted = ['panel', 'eye', 'rgbd'];  // modes that draw by themselves
 const kSilence = 'The server does not answer. Trying again.';
@@ -55,19 +55,15 @@ const lists = new DisplayLists((changes) => {
 const budget = new DepthBudget((fields) => controls.take(fields));
 const outside = new ViewsOutside();
 const autoDetail = new AutoDetail(ask);
-const eyeViews = new EyeViews(ask, aim);
-const display = new DisplayChoice(autoDetail, eyeViews, (aspect) => stage.frame(aspect), () => {
-  offerModes();
-  if (watching) watch(watching);
-});
-
 const stage = new Stage(byId('stage'), {
   onDrawn(atlas) {
     if (!atlas.acknowledged) {
       atlas.acknowledged = true;
       stream.shown(atlas.header.delivery);
       figures.noteShown(atlas);
-      if (display.isAutomatic) autoDetail.note(atlas.header, performance.now());
+      around.noteShown(atlas);
+      figures.noteMotion(display.isEye ? around.latency : null);
+      if (isDetailAutomatic()) autoDetail.note(atlas.header, performance.now());
     }
     root.dataset.sequence = atlas.header.sequence;
   },
@@ -77,25 +73,36 @@ const stage = new Stage(byId('stage'), {
   },
 });
 
+const around = new Around(stage, (message) => stream.send(message), ask);
+const display = new DisplayChoice(autoDetail, around, (aspect) => stage.frame(aspect), () => {
+  offerModes();
+  if (watching) watch(watching);
+});
+
+// The eye's own picture has a detail of its own (eye_size.js).
+const isDetailAutomatic = () => display.isAutomatic && !display.isEye;
+const viewCount = () => stage.layout && display.isEye ? around.total : stage.total;
+
 // Asks for what shall be seen, if that is not what the server sends.
 function ask() {
-  if (watching && stream.change(display.asked(watching))) eyeViews.noteAsked(performance.now());
+  if (watching) stream.change(display.asked(watching));
 }
 
-// Has the views around the eye asked for, wherever it is.
+// Has the eye look from where it stands in the mode that is on.
 function aim() {
-  const now_ms = performance.now();
-  const isSingle = display.seen === 'single';
-  eyeViews.look(isSingle ? single.view : look.target * (eyeViews.total - 1), now_ms, isSingle);
+  if (!display.isEye) return;
+  const isSingle = modes.mode === 'single';
+  around.look(isSingle ? single.view / Math.max(1, around.total - 1) : stage.position);
 }
 
 const decoder = new Decoder(
     (atlas) => {
       const {layout} = atlas.header;
+      if (display.isEye) around.take(atlas, stream.isNewest(atlas));
       stage.show(atlas);
       setState('live');
-      single.layoutChanged(stage.total);
-      controls.show(layout);
+      single.layoutChanged(viewCount());
+      controls.show(display.isEye ? {...layout, view_cone_rad: display.cone_rad} : layout);
       lists.show(layout);
       budget.show(atlas.header.depth_budget);
       outside.show(atlas.header.views_outside, layout);
@@ -103,9 +110,6 @@ const decoder = new Decoder(
       labelReduced(byId('reduced'), layout.tile_size.width, display.fullWidth_px,
           display.isAutomatic);
       nameView();
-      if (!stream.isNewest(atlas)) return;
-      eyeViews.noteAnswered(performance.now());
-      aim();
     },
     (atlas) => {
       stream.shown(atlas.header.delivery);
@@ -120,19 +124,17 @@ const stream = new AtlasStream({
   },
   onLive() {
     autoDetail.restart();
-    eyeViews.forget();
+    around.restart();
     notice('');
   },
+  onClock(reply) { around.takeClock(reply); },
   onAsked() { patience.begin(); },
   onWaiting(reason) {
     patience.end();
     setState('reconnecting');
     notice(`${reason} Trying again.`, 'bad', Infinity);
   },
-  onRefused(error) {
-    eyeViews.forget();
-    notice(error.message, 'bad');
-  },
+  onRefused(error) { notice(error.message, 'bad'); },
 });
 
 const look = new Look(byId('stage'), byId('view'), (position) => {
@@ -182,10 +184,12 @@ const modes = new Modes({
 });
 
 function seeAsOf(mode) {
-  const around = {look: stage.blend ? 'blend' : 'look', single: 'single', rgbd: 'middle'};
-  display.seen = around[mode] ?? 'all';
-  eyeViews.forget();
-  display.asked(watching);  // how many there are around the eye
+  display.seen = {look: 'eye', single: 'eye', rgbd: 'middle'}[mode] ?? 'all';
+  around.active = display.isEye;
+  around.controls.active = display.isEye && mode === 'look';
+  if (display.isEye) stage.painter = around;
+  display.asked(watching);  // how many views there are
+  single.layoutChanged(viewCount());
   aim();
   ask();
 }
@@ -197,7 +201,7 @@ function offerModes() {
 }
 
 function nameView() {
-  const count = stage.total;
+  const count = viewCount();
   const view = Math.round(stage.position * (count - 1)) + 1;
   byId('ruler-view').textContent = count ? `view ${view} of ${count}` : 'view –';
   byId('view').setAttribute('aria-valuetext', byId('ruler-view').textContent);
@@ -207,7 +211,7 @@ function setState(state) {
   root.dataset.state = state;
   byId('welcome').hidden = state !== 'no-stream';
   say({
-    'live': `Live: ${watching}, views: ${stage.total || 'none yet'}.`,
+    'live': `Live: ${watching}, views: ${viewCount() || 'none yet'}.`,
     'connecting': `Connecting to ${watching}.`,
     'no-stream': 'No stream is live.',
   }[state] ?? '');
@@ -260,11 +264,6 @@ onKey('q', () => modes.choose(modes.mode === 'quilt' ? 'look' : 'quilt'));
 modes.radios.forEach((radio, index) => {
   onKey(String(index + 1), () => modes.choose(radio.value));
 });
-toggle(byId('blend'), 'b', (isOn) => {
-  stage.blend = isOn;
-  seeAsOf(modes.mode);
-  stage.invalidate();
-});
 toggle(byId('details'), 'i', (isOn) => { byId('panel').hidden = !isOn; });
 byId('fullscreen').hidden = !document.fullscreenEnabled;  // phones that fill theirs anyway
 byId('fullscreen').addEventListener('click', () => {
@@ -278,8 +277,9 @@ byId('stream').addEventListener('change', ({target}) => {
 });
 
 setInterval(() => {
-  const isWatched = root.dataset.state === 'live' && !document.hidden;
-  if (isWatched && display.isAutomatic) autoDetail.look(performance.now(), isPublisherGone);
+  if (root.dataset.state !== 'live' || document.hidden) return;
+  around.tick(performance.now());
+  if (isDetailAutomatic()) autoDetail.look(performance.now(), isPublisherGone);
 }, kLook_ms);
 
 // Nobody looks: the display need not be traced.

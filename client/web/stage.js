@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws one view of the newest atlas, two neighbouring ones mixed, or the whole of it; or lets a
-// painter draw. Of views that are not at hand it draws the nearest.
+// Draws one view of the newest atlas, or the whole of it; or lets a painter draw. For a view that
+// is not at hand it draws the nearest.
 import {watchDeviceSize} from './device_size.js';
 
 // Half a pixel inside a tile, smoothing does not reach into its neighbours.
@@ -39,7 +39,6 @@ export class Stage {
     this.position = 0.5;  // 0 = leftmost view, 1 = rightmost
     this.whole = false;
     this.single = null;    // the number of the one view shown, from 0, whatever the position
-    this.blend = false;
     this.painter = null;   // {draw(atlas)}: draws instead
     watchDeviceSize(canvas, (size_px) => this.#resize(size_px));
   }
@@ -118,22 +117,16 @@ export class Stage {
     const atHand = (view) => Math.min(view_count - 1, Math.max(0, view - first));
     const exact = atHand(this.position * (total - 1));
     const nearest = this.single === null ? Math.round(exact) : atHand(this.single);
-    const isMixed = this.blend && this.single === null;
-    const lower = isMixed ? Math.floor(exact) : nearest;
-    const share = isMixed ? exact - lower : 0;
-    this.#drawTile(lower, 1);
-    if (share > 0) this.#drawTile(lower + 1, share);
+    this.#drawTile(nearest);
     this.canvas.dataset.view = first + nearest;
   }
 
-  #drawTile(view, opacity) {
+  #drawTile(view) {
     const {layout, context} = this;
     const {x, y} = tileOrigin(layout, view);
     const {width, height} = layout.tile_size;
-    context.globalAlpha = opacity;
     context.drawImage(
         this.#atlas.bitmap, x + kTileEdge_px, y + kTileEdge_px, width - 2 * kTileEdge_px,
         height - 2 * kTileEdge_px, ...this.frame(layout.aspect));
-    context.globalAlpha = 1;
   }
 }

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// How far the server's clock is ahead of the page's, by answers to clock_probe (proto/web.md).
+
+const kReplyCount = 16;
+
+// Time of the page, as the protocol's messages hold it.
+export const nowNs = () => BigInt(Math.round(performance.now() * 1e6));
+
+export class ServerClock {
+  #replies = [];  // {ahead_ns: BigInt, error_ns}, the newest last
+
+  // {client_time_ns, server_received_ns, server_sent_ns}: strings
+  add(reply, received_ns) {
+    const [sent, came, left] = ['client_time_ns', 'server_received_ns', 'server_sent_ns'].map(
+        (name) => BigInt(reply[name]));
+    const error_ns = Number(received_ns - sent - (left - came)) / 2;
+    if (error_ns < 0) return;
+    this.#replies.push({ahead_ns: (came + left - sent - received_ns) / 2n, error_ns});
+    if (this.#replies.length > kReplyCount) this.#replies.shift();
+  }
+
+  forget() { this.#replies = []; }
+
+  // By the answer that came back the soonest; null before the first.
+  get ahead_ns() {
+    if (this.#replies.length === 0) return null;
+    return this.#replies.reduce((best, reply) => reply.error_ns < best.error_ns ? reply : best)
+        .ahead_ns;
+  }
+}
+
+// From the eye's motion to its picture on the screen, ms: {total, to_server, waiting, rendering,
+// back}; the parts add up. eyes, times: of the atlas's header; null where nobody knows the clock.
+export function motionToPicture({eyes, times}, shown_ns, ahead_ns) {
+  if (!eyes || ahead_ns === null || eyes.time_ns === '0') return null;
+  const ms = (ns) => Number(ns) / 1e6;
+  const measured_ns = BigInt(eyes.time_ns);
+  const latched_ns = BigInt(eyes.latched_ns) - ahead_ns;
+  const waiting = eyes.age_ns / 1e6;
+  const rendering = (times.trace_ns + times.encode_ns) / 1e6;
+  return {
+    total: ms(shown_ns - measured_ns),
+    to_server: ms(latched_ns - measured_ns) - waiting,
+    waiting,
+    rendering,
+    back: ms(shown_ns - latched_ns) - rendering,
+  };
+}
