@@ -96,6 +96,16 @@ export class DisplayChoice {
     return {stream, display, encoding};
   }
 
+  // The same picture for the eyes in a headset.
+  inHeadset(stream, eye_size, count) {
+    const {quilt, focus_following_s, ...others} = this.#document.whole;
+    const layout = count === 1 ? 'STEREO_LAYOUT_SINGLE' : 'STEREO_LAYOUT_SIDE_BY_SIDE';
+    const display = {...others, stereo: {layout, tracked: true, eye_size}};
+    const encoding = {...this.#document.encoding, with_depth: true,
+      planes: 'BAND_ENCODING_COMPACT_DEPTH'};
+    return {stream, display, encoding};
+  }
+
   // All of the display, as somebody else is to watch it.
   elsewhere(stream) {
     return {stream, display: this.#document.whole, encoding: this.#document.encoding};

@@ -28,6 +28,7 @@ import {StreamList} from './stream_list.js';
 import {Tilt} from './tilt.js';
 import {ViewsOutside} from './views_outside.js';
 import {Weaver} from './weaver.js';
+import {XrButton} from './xr_button.js';
 
 const kRetry_ms = 1000;
 const kHiddenGrace_ms = 5000;
@@ -143,6 +144,8 @@ const look = new Look(byId('stage'), byId('view'), (position) => {
   nameView();
 });
 new Tilt(byId('tilt'), (position) => look.take(position));
+new XrButton(byId('vr'), (...eyes) => display.inHeadset(watching, ...eyes), rest,
+    () => watching && watch(watching));
 const single = new SingleMode(stage, aim);
 const weaver = new Weaver(byId('woven'));
 const panelMode = new PanelMode(weaver, () => stage.invalidate());
@@ -156,11 +159,7 @@ watchDeviceSize(byId('woven'), (size_px) => {
 // Draws by WebGL as long as the mode lasts.
 async function paint(mode) {
   stage.painter = mode;
-  try {
-    await mode.enter();
-  } catch (error) {
-    notice(error.message, 'bad', Infinity);
-  }
+  await mode.enter().catch((error) => notice(error.message, 'bad', Infinity));
   stage.invalidate();
 }
 

@@ -85,7 +85,7 @@ class Modes(PageTest):
             if name != "BODY":
                 self.assertNotEqual(outline, "none", name)
         for name in ("stream", "preset", "detail", "custom-columns", "look", "stage", "view",
-                     "blend", "focus", "follow", "cone", "command-watch", "copy-socket"):
+                     "focus", "follow", "cone", "command-watch", "copy-socket"):
             self.assertIn(name, reached)
 
     def test_single_views_stand_still_and_go_by_number(self):

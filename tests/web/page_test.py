@@ -104,20 +104,6 @@ class Page(PageTest):
             self.assertAlmostEqual(picture.width / picture.height, 0.75, delta=0.01)
         keep(self.browser.screenshot(), "painted")
 
-    def test_mixes_neighbouring_views_when_asked(self):
-        self.open()
-        self.browser.click("#blend")
-        left, top, width, height = self.canvas()
-        # Halfway between views 23 (010111) and 24 (011000): what differs is grey.
-        self.browser.mouse(left + width * 23.5 / (self.view_count - 1), top + height / 2)
-        self.browser.wait_for("document.getElementById('stage').dataset.view >= 23")
-        picture = self.shown_picture().convert("L")
-        levels = [picture.getpixel((int(picture.width * (0.1 + 0.8 * (bit + 0.5) / 8)),
-                                    picture.height // 2)) for bit in range(8)]
-        for bit, level in enumerate(levels):
-            expected = {0: 0, 1: 0, 2: 0, 3: 255}.get(bit, 127)
-            self.assertAlmostEqual(level, expected, delta=30, msg=f"bit {bit} of {levels}")
-
     def test_arrow_keys_and_the_slider_look_around(self):
         self.open()
         self.look(0.5)

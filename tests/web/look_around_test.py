@@ -1,0 +1,194 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Looking around on the page: poses out, pictures in, before a server that shows a known scene.
+Screenshots are kept in the folder VIEWLOOM_SCREENSHOTS, when that is set."""
+import math
+import os
+import time
+import unittest
+
+import numpy as np
+
+import ray_scene
+from browser import CHROMIUM, Browser
+from page_test import LIVE, keep
+from ray_server import CONE_RAD, RayServer
+
+STAGE = "document.getElementById('stage')"
+VIEWS = 48
+
+
+@unittest.skipUnless(os.path.exists(CHROMIUM), f"there is no {CHROMIUM}")
+class LookAround(unittest.TestCase):
+    def start(self, query="", delay_s=0.0, size=(700, 560), scale=1,
+              reprojection="off"):
+        self.server = RayServer(delay_s=delay_s)
+        self.addCleanup(self.server.close)
+        self.browser = Browser(*size)
+        self.addCleanup(self.browser.close)
+        self.browser.resize(*size, scale=scale)
+        self.browser.reduce_motion()
+        self.browser.open(f"{self.server.url}?stream=rays&reprojection={reprojection}{query}")
+        self.browser.wait_for(LIVE)
+        self.browser.wait_for(f"{STAGE}.dataset.view === '24'")
+
+    def box(self):
+        return self.browser.evaluate(f"(r => [r.x, r.y, r.width, r.height])"
+                                     f"({STAGE}.getBoundingClientRect())")
+
+    def point(self, share, height_share=0.5):
+        left, top, width, height = self.box()
+        return left + share * width, top + height_share * height
+
+    def wait_for(self, condition, seconds=60):
+        deadline = time.monotonic() + seconds
+        while not condition():
+            self.assertLess(time.monotonic(), deadline, self.browser.messages)
+            time.sleep(0.05)
+
+    def eye(self):
+        return self.server.poses[-1]["eyes"][0]
+
+    def place(self):
+        return [self.eye()["pose"]["position"][axis] for axis in "xyz"]
+
+    def picture(self):
+        """What the canvas shows of the scene, and where, px of the device."""
+        scale = self.browser.evaluate("devicePixelRatio")
+        left, top, width, height = (side * scale for side in self.box())
+        shot = self.browser.screenshot().crop((left, top, left + width, top + height))
+        _, size = self.asked()
+        # The page leaves a margin of 2.5 % of the shorter side.
+        margin = round(0.025 * min(width, height))
+        tall = min(height - 2 * margin, (width - 2 * margin) / 0.75)
+        wide = 0.75 * tall
+        area = ((width - wide) / 2, (height - tall) / 2, (width + wide) / 2, (height + tall) / 2)
+        return np.asarray(shot.crop([round(side) for side in area]).resize(size))
+
+    def asked(self):
+        stereo = self.server.displays[-1]["stereo"]
+        return stereo, (stereo["eye_size"]["width"], stereo["eye_size"]["height"])
+
+    def score(self):
+        """PSNR of the canvas against what the eye of the newest pose sees, dB."""
+        _, size = self.asked()
+        expected = ray_scene.look(ray_scene.Eye.of_message(self.eye(), *size), *size)[0]
+        return ray_scene.psnr(self.picture(), expected)
+
+    def test_the_pointer_moves_one_eye_whose_view_is_as_large_as_the_canvas(self):
+        self.start(scale=2)
+        stereo, (width, height) = self.asked()
+        self.assertEqual((stereo["layout"], stereo["tracked"]), ("STEREO_LAYOUT_SINGLE", True))
+        _, _, box_width, box_height = self.box()
+        shown = min(2 * 0.95 * box_height, 2 * 0.95 * box_width / 0.75)
+        self.assertAlmostEqual(height, shown, delta=6)
+        self.assertAlmostEqual(width, 0.75 * height, delta=3)
+        for share in (0.1, 0.6, 0.95):
+            self.browser.mouse(*self.point(share))
+            view = round(share * (VIEWS - 1))
+            self.browser.wait_for(f"{STAGE}.dataset.view === '{view}'")
+            angle = CONE_RAD * ((share * (VIEWS - 1) + 0.5) / VIEWS - 0.5)
+            self.assertAlmostEqual(self.place()[0], ray_scene.FOCAL_M * math.tan(angle),
+                                   delta=0.02)
+            self.assertGreater(self.score(), 22)
+        keep(self.browser.screenshot(), "look_around")
+        self.assertEqual(self.browser.messages, [])
+
+    def test_a_drag_turns_the_wheel_and_keys_step_and_0_goes_back(self):
+        self.start()
+        self.browser.mouse(*self.point(0.5))
+        begin, end = self.point(0.5), self.point(0.4, 0.6)
+        self.browser.mouse(*begin, "mousePressed", button="left", buttons=1, clickCount=1)
+        self.browser.mouse(*end, button="left", buttons=1)
+        self.browser.mouse(*end, "mouseReleased", button="left", clickCount=1)
+        self.wait_for(lambda: self.place()[0] > 0.5 and self.place()[1] > 0.2)
+        middle = np.array((0, 0, -ray_scene.FOCAL_M))
+        self.assertAlmostEqual(np.linalg.norm(self.place() - middle), ray_scene.FOCAL_M,
+                               delta=0.05)
+        self.browser.wait_for(f"{STAGE}.dataset.view")
+        self.wait_for(lambda: self.score() > 22)
+        keep(self.browser.screenshot(), "look_around_turned")
+        self.browser.evaluate(f"{STAGE}.focus()")
+        self.browser.key("w")
+        self.wait_for(lambda: np.linalg.norm(self.place() - middle) < 0.97 * ray_scene.FOCAL_M)
+        self.browser.key("0")
+        self.wait_for(lambda: abs(self.place()[1]) < 1e-6 and abs(self.place()[2]) < 1e-6)
+        self.browser.call("Input.dispatchMouseEvent", type="mouseWheel", x=begin[0], y=begin[1],
+                          deltaX=0, deltaY=100)
+        self.wait_for(lambda: self.place()[2] > 0.1)
+
+    def test_two_fingers_step_and_pan(self):
+        self.start()
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
+        points = [self.point(0.4), self.point(0.6)]
+        self.browser.touch("touchStart", *points)
+        for step in range(1, 4):
+            self.browser.touch("touchMove", self.point(0.4 - 0.05 * step),
+                               self.point(0.6 + 0.05 * step))
+        self.browser.touch("touchEnd")
+        self.wait_for(lambda: self.place()[2] < -0.5)
+
+    def test_single_views_are_one_eye_that_stands(self):
+        self.start("&mode=single")
+        self.browser.click("#single-on")
+        self.browser.wait_for(f"{STAGE}.dataset.view === '25'")
+        angle = CONE_RAD * (25.5 / VIEWS - 0.5)
+        self.assertAlmostEqual(self.place()[0], ray_scene.FOCAL_M * math.tan(angle), delta=1e-3)
+        self.browser.mouse(*self.point(0.1))
+        time.sleep(0.5)
+        self.assertEqual(self.browser.evaluate(f"{STAGE}.dataset.view"), "25")
+
+    def test_a_slow_server_is_asked_for_less_while_the_eye_moves_and_this_is_said(self):
+        # Large enough for steps: no picture is lower than 360 px.
+        self.start(delay_s=0.5, size=(1000, 1000))
+        _, full = self.asked()
+        deadline = time.monotonic() + 15
+        share = 0.2
+        while len(self.server.displays) == 1 and time.monotonic() < deadline:
+            share = 0.2 + (share + 0.013) % 0.6
+            self.browser.mouse(*self.point(share))
+            time.sleep(0.03)
+        _, less = self.asked()
+        self.assertLess(less[1], full[1])
+        self.assertGreaterEqual(less[1], 360)
+        self.browser.wait_for("document.getElementById('reduced').textContent"
+                              ".startsWith('Reduced detail for now')")
+        self.wait_for(lambda: self.asked()[1] == full)
+        self.browser.wait_for("document.getElementById('reduced').hidden")
+
+    def test_motion_to_picture_is_told_in_parts_that_add_up(self):
+        self.start(delay_s=0.2)
+        deadline = time.monotonic() + 30
+        text = ""
+        while "back" not in text and time.monotonic() < deadline:
+            self.browser.mouse(*self.point(0.3 + 0.4 * (time.monotonic() % 1)))
+            text = self.browser.evaluate("document.getElementById('facts').innerText")
+        line = next(line for line in text.splitlines() if "to the server" in line)
+        total, *parts = [int(word) for word in line.replace(":", "").split() if word.isdigit()]
+        self.assertGreaterEqual(total, 190)
+        self.assertAlmostEqual(total, sum(parts), delta=4)
+        self.assertTrue(self.server.presented)
+
+    def test_the_picture_follows_before_the_server_answers(self):
+        self.start(delay_s=4, reprojection="on")
+        self.assertTrue(self.browser.evaluate(
+            "new URLSearchParams(location.search).get('reprojection') === 'on'"))
+        self.browser.mouse(*self.point(0.6))
+        self.wait_for(lambda: len(self.server.poses) > 1 or self.place()[0] > 0.1)
+        moved = time.monotonic()
+        self.wait_for(lambda: self.score() > 18, 3)
+        self.assertLess(time.monotonic() - moved, 3.5)
+        self.assertEqual(self.browser.evaluate(f"{STAGE}.dataset.view"), "24", "not yet answered")
+        keep(self.browser.screenshot(), "reprojected")
+
+    def test_an_eye_without_a_place_is_never_sent(self):
+        self.start()
+        count = len(self.server.poses)
+        self.browser.evaluate(
+            "import('/eye_poses.js').then(({EyePoses}) => { window.went = "
+            "new EyePoses(() => true).put([{pose: {position: {x: NaN}}}], {}); })")
+        self.browser.wait_for("window.went === false")
+        self.assertEqual(len(self.server.poses), count)
+
+
+if __name__ == "__main__":
+    unittest.main()
