@@ -22,8 +22,8 @@ struct WatchRequest {
 
 // The same conversion and checks as over gRPC, and those of what the web serves: one image, its
 // colour as JPEG or H.264, its depth raw or compact. NOT_FOUND for an unknown preset,
-// INVALID_ARGUMENT for anything else; errors name the field ("display.quilt.columns"). Whether there
-// is such a stream is for checkStream to say.
+// INVALID_ARGUMENT for anything else; errors name the field ("display.quilt.columns"). Whether
+// there is such a stream is for checkStream to say.
 absl::StatusOr<WatchRequest> makeWatchRequest(const AskedDisplay& asked);
 
 // The same of what the parameters of a URL ask for; errors name the parameter.
