@@ -93,6 +93,11 @@ absl::Status unpackBand(const AtlasBand& band, uint8_t* out, size_t size) {
     std::memcpy(out, band.bytes.data(), size);
     return absl::OkStatus();
   }
+  if (band.encoding != v1::BAND_ENCODING_ZSTD) {
+    return absl::UnimplementedError(
+        strCat("the band at row ", band.first_row, " is ", v1::BandEncoding_Name(band.encoding),
+               "; this client unpacks planes of ZSTD and RAW: ask for one of them"));
+  }
   const size_t got = ZSTD_decompress(out, size, band.bytes.data(), band.bytes.size());
   if (ZSTD_isError(got) != 0 || got != size) {
     return absl::DataLossError(

@@ -69,6 +69,7 @@ export class Around {
       this.#display = text;
       this.rig.forgetWindow();
       this.late.clear();
+      this.run();
     }
     return {...display, stereo: {...display.stereo, eye_size: this.#eyeSize(room)}};
   }

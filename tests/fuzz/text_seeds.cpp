@@ -38,7 +38,10 @@ SeedBytes viewerSeeds() {
        "{\"change\": {\"display\": {\"quilt\": {\"preset\": \"portrait\"}}}}",
        "{\"change\": {\"display\": {\"stereo\": {\"eyeSize\": {\"width\": 9, \"height\": 9}}},\n"
        "{\"change\": {\"display\": {\"stereo\": {\"eyeSize\": {\"width\": 9, \"height\": 9}}}, "
-       "\"encoding\": {\"jpegQuality\": 70, \"withDepth\": true}}}"});
+       "\"encoding\": {\"jpegQuality\": 70, \"withDepth\": true}}}",
+       "{\"eye_poses\": {\"time_ns\": \"8\", \"eyes\": [{\"pose\": {\"position\": {\"x\": 0.1}}, "
+       "\"fov\": {\"angle_left_rad\": -0.5, \"angle_right_rad\": 0.5}}]}}\n"
+       "{\"presented\": {\"sequence\": \"3\"}}\n{\"clock_probe\": {\"client_time_ns\": \"1\"}}"});
 }
 
 SeedBytes httpSeeds() {
