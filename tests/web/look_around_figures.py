@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Measures what tests/performance.md keeps about looking around, with the built-in scene:
+
+    look_around_figures.py VIEWLOOMD VIEWLOOM [--seconds 10] [--gpu]
+
+pictures a second, their height and motion to picture while the pointer moves sideways, and while it
+turns about the scene; the height of the first picture, and how soon one that stands is sharp; and
+bytes of compact depth. Prints JSON. --gpu: lets the browser use one, and reprojection with it."""
+import argparse
+import json
+import math
+import re
+import statistics
+import subprocess
+import time
+
+import browser as chromium
+from web_client import WebSocket, asked
+
+STAGE = "document.getElementById('stage')"
+# Every picture that came to be seen: when, and how high.
+RECORD = """
+window.pictures = [];
+const Real = WebSocket;
+window.WebSocket = class extends Real {
+  send(text) {
+    if (text.startsWith('{"shown"')) pictures.push({ms: performance.now(), height: lastHeight});
+    super.send(text);
+  }
+};
+const parse = JSON.parse;
+window.lastHeight = 0;
+JSON.parse = (text) => {
+  const value = parse(text);
+  if (value?.layout?.tile_size) window.lastHeight = value.layout.tile_size.height;
+  return value;
+};"""
+
+
+class Live:
+    def __init__(self, server, client):
+        self.server = subprocess.Popen(
+            [server, "serve", "--http.address", "127.0.0.1:0", "--grpc.address", "127.0.0.1:0"],
+            stdout=subprocess.PIPE, text=True)
+        line = self.server.stdout.readline()
+        grpc, self.url, port = re.search(r"grpc=\S+:(\d+) http=(\S+:(\d+)/)", line).groups()
+        self.port = int(port)
+        self.publisher = subprocess.Popen(
+            [client, "publish", "--synthetic", "--stream", "demo", "--server",
+             f"127.0.0.1:{grpc}"], stdout=subprocess.DEVNULL)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for process in (self.publisher, self.server):
+            process.terminate()
+            process.wait()
+
+
+class Page:
+    def __init__(self, page, url):
+        self.page = page
+        page.call("Page.addScriptToEvaluateOnNewDocument", source=RECORD)
+        page.reduce_motion()
+        page.open(url + "?stream=demo")
+        page.wait_for("window.pictures?.length > 0")
+        self.first_height = page.evaluate("pictures[0].height")
+        self.box = page.evaluate(f"(r => [r.x, r.y, r.width, r.height])"
+                                 f"({STAGE}.getBoundingClientRect())")
+
+    def point(self, share, height_share=0.5):
+        left, top, width, height = self.box
+        return left + share * width, top + height_share * height
+
+    def move(self, seconds, at, **mouse):
+        """Moves the pointer along at(time_s), 60 times a second; the pictures meanwhile."""
+        self.page.evaluate("pictures.length = 0")
+        begin = time.monotonic()
+        while (now := time.monotonic() - begin) < seconds:
+            self.page.mouse(*self.point(*at(now)), **mouse)
+            time.sleep(1 / 60)
+        moved = self.page.evaluate("[pictures, performance.now()]")
+        return {"pictures_per_s": round(len(moved[0]) / seconds, 1),
+                "median_height_px": statistics.median(p["height"] for p in moved[0]),
+                "least_height_px": min(p["height"] for p in moved[0]),
+                "motion_to_picture": self.latency()}
+
+    def latency(self):
+        text = self.page.evaluate("document.getElementById('facts').innerText")
+        return next((line for line in text.splitlines() if "to the server" in line), "unknown")
+
+    def sharp_after_ms(self):
+        """From now until a picture of full height is seen."""
+        begin = self.page.evaluate("performance.now()")
+        full = f"pictures.find(p => p.ms >= {begin} && p.height >= {self.first_height})"
+        sharp = self.page.evaluate(f"pictures.at(-1).height >= {self.first_height}")
+        return 0 if sharp else round(self.page.wait_for(f"({full})?.ms") - begin)
+
+
+def depth_figures(port):
+    display = {"stereo": {"layout": "STEREO_LAYOUT_SINGLE", "tracked": True,
+                          "eye_size": {"width": 1280, "height": 720}}}
+    encoding = {"with_depth": True, "planes": "BAND_ENCODING_COMPACT_DEPTH"}
+    viewer = WebSocket(port, "/ws?" + asked(display, encoding, stream="demo"))
+    sizes = []
+    for index in range(10):
+        atlas = viewer.receive_atlas()
+        viewer.shown(atlas)
+        sizes.append((len(atlas.depth), len(atlas.jpeg)))
+        viewer.send_json({"eye_poses": {"time_ns": str(index), "eyes": [
+            {"pose": {"position": {"x": 0.02 * index}}}]}})
+    viewer.close()
+    depth, jpeg = (statistics.mean(column) for column in zip(*sizes))
+    return {"size": "1280x720", "depth_bytes": round(depth), "jpeg_bytes": round(jpeg),
+            "depth_mbit_per_s_at_20_hz": round(depth * 8 * 20 / 1e6, 2)}
+
+
+def measure(arguments):
+    if arguments.gpu:
+        chromium.FLAGS = tuple(flag for flag in chromium.FLAGS if flag != "--disable-gpu")
+    with Live(arguments.server, arguments.client) as live, \
+            chromium.Browser(1440, 900) as page:
+        page.open(live.url + "api/streams")
+        page.wait_for("fetch('/api/streams').then(r => r.json()).then("
+                      "j => j.streams.some(s => s.frame_number > 0))")
+        shown = Page(page, live.url)
+        figures = {"first_height_px": shown.first_height}
+        figures["sideways"] = shown.move(
+            arguments.seconds, lambda s: (0.5 + 0.4 * math.sin(2 * math.pi * 0.3 * s),))
+        figures["sharp_after_ms"] = shown.sharp_after_ms()
+        page.mouse(*shown.point(0.5), kind="mousePressed", button="left", buttons=1, clickCount=1)
+        figures["free"] = shown.move(
+            arguments.seconds, lambda s: (0.5 + 0.2 * math.sin(2 * math.pi * 0.3 * s),
+                                          0.5 + 0.1 * math.sin(2 * math.pi * 0.4 * s)),
+            button="left", buttons=1)
+        page.mouse(*shown.point(0.5), kind="mouseReleased", button="left", clickCount=1)
+        figures["free_sharp_after_ms"] = shown.sharp_after_ms()
+        page.open("about:blank")
+        figures["depth"] = depth_figures(live.port)
+    return figures
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("server")
+    parser.add_argument("client")
+    parser.add_argument("--seconds", type=float, default=10)
+    parser.add_argument("--gpu", action="store_true")
+    print(json.dumps(measure(parser.parse_args()), indent=2))
+
+
+if __name__ == "__main__":
+    main()
