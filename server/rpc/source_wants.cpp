@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/source_wants.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -57,7 +58,10 @@ v1::Wanted wantedToProto(std::span<const AtlasPtr> atlases, std::span<const InvZ
   if (atlases.empty()) return proto;
   *proto.mutable_size() = sizeToProto(demand.sizePx());
   *proto.mutable_fov() = fovToProto(demand.fov());
-  proto.set_layer_count(demand.hasParallax() ? kLayersForParallax : 1);
+  // One eye that moves sees past edges as soon as the next picture.
+  const bool has_eyes = std::ranges::any_of(
+      atlases, [](const AtlasPtr& atlas) { return atlas->eye_poses_latched_ns != 0; });
+  proto.set_layer_count(demand.hasParallax() || has_eyes ? kLayersForParallax : 1);
   *proto.mutable_pose() = poseToProto(pose);
   return proto;
 }
