@@ -22,7 +22,7 @@ EYE = (320, 320)  # px
 # The headset's canvas covers the window, half of it for each eye.
 INSTALL = """
 const device = new IWER.XRDevice(IWER.metaQuest3, {stereoEnabled: true, ipd: 0.06});
-device.installRuntime();
+device.installRuntime({forceInstall: true});
 window.headset = device;
 """
 emulator = None

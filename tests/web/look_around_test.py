@@ -141,9 +141,10 @@ class LookAround(unittest.TestCase):
         # Large enough for steps: no picture is lower than 360 px.
         self.start(delay_s=0.5, size=(1000, 1000))
         _, full = self.asked()
+        before = len(self.server.displays)
         deadline = time.monotonic() + 15
         share = 0.2
-        while len(self.server.displays) == 1 and time.monotonic() < deadline:
+        while len(self.server.displays) == before and time.monotonic() < deadline:
             share = 0.2 + (share + 0.013) % 0.6
             self.browser.mouse(*self.point(share))
             time.sleep(0.03)
@@ -169,14 +170,10 @@ class LookAround(unittest.TestCase):
         self.assertTrue(self.server.presented)
 
     def test_the_picture_follows_before_the_server_answers(self):
-        self.start(delay_s=4, reprojection="on")
-        self.assertTrue(self.browser.evaluate(
-            "new URLSearchParams(location.search).get('reprojection') === 'on'"))
+        self.start(delay_s=20, reprojection="on")
         self.browser.mouse(*self.point(0.6))
-        self.wait_for(lambda: len(self.server.poses) > 1 or self.place()[0] > 0.1)
-        moved = time.monotonic()
-        self.wait_for(lambda: self.score() > 18, 3)
-        self.assertLess(time.monotonic() - moved, 3.5)
+        self.wait_for(lambda: self.place()[0] > 0.1)
+        self.wait_for(lambda: self.score() > 18)
         self.assertEqual(self.browser.evaluate(f"{STAGE}.dataset.view"), "24", "not yet answered")
         keep(self.browser.screenshot(), "reprojected")
 

@@ -33,12 +33,13 @@ class Eye:
         self.principal = tuple(principal)
 
     @staticmethod
-    def straight(x_m, width, height):
-        """Frames the display's rectangle on the focal plane from (x, 0, 0)."""
+    def straight(x_m, width, height, y_m=0.0, z_m=0.0):
+        """Frames the display's rectangle on the focal plane from a place in front of it."""
         half_height_m = FOCAL_M * math.tan(FOV_Y_RAD / 2)
-        focal = 0.5 * height * FOCAL_M / half_height_m
-        return Eye((x_m, 0, 0), (0, 0, 0, 1), (focal, focal),
-                   (0.5 * width - x_m * focal / FOCAL_M, 0.5 * height))
+        away_m = FOCAL_M + z_m
+        focal = 0.5 * height * away_m / half_height_m
+        return Eye((x_m, y_m, z_m), (0, 0, 0, 1), (focal, focal),
+                   (0.5 * width - x_m * focal / away_m, 0.5 * height + y_m * focal / away_m))
 
     @staticmethod
     def of_message(camera, width, height):
@@ -48,7 +49,7 @@ class Eye:
         turned = pose.get("orientation", {"w": 1})
         orientation = [turned.get(axis, 0) for axis in "xyzw"]
         if "fov" not in camera:
-            return Eye.straight(position[0], width, height)
+            return Eye.straight(position[0], width, height, *position[1:])
         left, right, up, down = (math.tan(camera["fov"][f"angle_{side}_rad"])
                                  for side in ("left", "right", "up", "down"))
         focal = (width / (right - left), height / (up - down))
