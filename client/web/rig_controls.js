@@ -72,7 +72,7 @@ export class RigControls {
     const moves = {
       w: () => rig.step(kKeyStep), s: () => rig.step(-kKeyStep),
       a: () => rig.pan(-kKeyStep, 0), d: () => rig.pan(kKeyStep, 0),
-      e: () => rig.pan(0, kKeyStep), c: () => rig.pan(0, -kKeyStep),
+      e: () => rig.pan(0, kKeyStep), x: () => rig.pan(0, -kKeyStep),
       ArrowUp: () => rig.orbit(0, kKeyTurn_rad), ArrowDown: () => rig.orbit(0, -kKeyTurn_rad),
       0: () => rig.reset(),
     };

@@ -88,7 +88,8 @@ class Page:
 
     def latency(self):
         text = self.page.evaluate("document.getElementById('facts').innerText")
-        return next((line for line in text.splitlines() if "to the server" in line), "unknown")
+        found = re.search(r"\d+ ms: \d+ to the server, .* back", text)
+        return found.group() if found else "unknown"
 
     def sharp_after_ms(self):
         """From now until a picture of full height is seen."""
