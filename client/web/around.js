@@ -26,6 +26,7 @@ export class Around {
   #stage;
   #poses;
   #isRunning = false;
+  #onward_ms = null;  // when the step before this one was, if it led to this one
   #display = '';     // that is asked for, but for its size
   #fixed = null;     // the share of the canvas that the visitor chose; null = automatic
   #sent = '';
@@ -132,13 +133,15 @@ export class Around {
   run() {
     if (this.#isRunning || !this.active) return;
     this.#isRunning = true;
-    requestAnimationFrame(() => {
+    requestAnimationFrame((now_ms) => {
       this.#isRunning = false;
-      this.#step();
+      this.#step(now_ms);
     });
   }
 
-  #step() {
+  #step(now_ms) {
+    const before_ms = this.#onward_ms;
+    this.#onward_ms = null;
     if (!this.active) return;
     // The first picture of a connection shows that by itself.
     if (!this.rig.isKnown && this.#poses.isFresh) return;
@@ -147,8 +150,11 @@ export class Around {
       isPlain: !this.rig.isKnown};
     if (this.#poses.put([eye], note) && this.rig.isKnown) this.size.noteMoved(performance.now());
     if (!this.late.isOn) return;
-    this.#stage.invalidate();
-    if (this.#shows && !this.#poses.isNewest(this.#shows.atlas.header)) this.run();
+    if (before_ms !== null) this.late.notePace(now_ms - before_ms);
+    this.#stage.drawNow();
+    if (!this.#shows || this.#poses.isNewest(this.#shows.atlas.header)) return;
+    this.#onward_ms = now_ms;
+    this.run();
   }
 
   // Draws to the stage's canvas.

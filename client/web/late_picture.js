@@ -4,14 +4,13 @@
 import {pageParameters} from './address.js';
 import {isOnGpu, Reprojector} from './reprojector.js';
 
-const kSlow_ms = 34;    // from one drawn picture to the next: too slow to hide anything
+const kSlow_ms = 34;    // from one frame to the next: too slow to hide anything
 const kSlowCount = 30;  // of such in a row
 
 export class LatePicture {
   #canvas = document.createElement('canvas');
   #reprojector = null;
   #slow = 0;
-  #drawn_ms = 0;
 
   // asked: the page's parameter `reprojection`, 'on' or 'off'; else where there is a GPU
   constructor(asked = pageParameters().get('reprojection')) {
@@ -39,8 +38,6 @@ export class LatePicture {
   // The canvas, with what `camera` sees of the pictures in {width, height} px; null = nothing.
   draw(camera, size_px) {
     if (!this.#reprojector?.newest) return null;
-    this.#watchPace();
-    if (!this.#reprojector) return null;
     const {width, height} = size_px;
     const canvas = this.#canvas;
     if (canvas.width !== width || canvas.height !== height) Object.assign(canvas, {width, height});
@@ -48,12 +45,10 @@ export class LatePicture {
     return canvas;
   }
 
-  // A browser that cannot keep the pace goes without from now on.
-  #watchPace() {
-    const now_ms = performance.now();
-    const taken_ms = now_ms - this.#drawn_ms;
-    this.#drawn_ms = now_ms;
-    if (this.isForced || taken_ms > 1000) return;
+  // Time from one frame to the next, while pictures are drawn in each. A browser that cannot keep
+  // the pace goes without from now on.
+  notePace(taken_ms) {
+    if (this.isForced || !this.isOn) return;
     this.#slow = taken_ms > kSlow_ms ? this.#slow + 1 : 0;
     if (this.#slow < kSlowCount) return;
     this.clear();

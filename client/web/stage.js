@@ -67,6 +67,9 @@ export class Stage {
     });
   }
 
+  // For callers that are called once a frame already.
+  drawNow() { this.#draw(); }
+
   #resize({width, height}) {
     this.canvas.width = Math.max(1, width);
     this.canvas.height = Math.max(1, height);
