@@ -24,6 +24,19 @@ TEST(DisplayPrice, growsWithThePlanesThatAreAskedFor) {
   EXPECT_EQ(all.making_bytes, 9 * area_px);
   EXPECT_EQ(all.encoded_bytes, 9 * area_px);
   EXPECT_EQ(all.viewerBytes(), kConnectionBytes + 9 * area_px);
+  const DisplayPrice compact =
+      displayPrice(quiltOf(1024), {.with_depth = true, .planes = BandEncoding::kCompactDepth});
+  EXPECT_EQ(compact.making_bytes, 8 * area_px);
+  EXPECT_EQ(compact.encoded_bytes, area_px / 2 + area_px);
+}
+
+TEST(DisplayPrice, ofOneEyeIsHalfThatOfTwo) {
+  StereoSpec eyes{.eye_size_px = {640, 480}, .is_tracked = true};
+  const DisplayPrice two = displayPrice(completeDisplaySpec({.kind = eyes}).value(), {});
+  eyes.layout = StereoLayout::kSingle;
+  const DisplayPrice one = displayPrice(completeDisplaySpec({.kind = eyes}).value(), {});
+  EXPECT_EQ(2 * one.making_bytes, two.making_bytes);
+  EXPECT_EQ(2 * one.rays_bytes, two.rays_bytes);
 }
 
 // 16 pictures of one view each wait, and an encoder has a few of them.
