@@ -143,7 +143,7 @@ class Figures(Reprojection):
         size = {"width": 1280, "height": 720}
         self.open_eyes(size=size)
         for motion in (sideways, free):
-            with_it, without = self.latency_scores(motion, size, 8)
+            with_it, without = self.latency_scores(motion, size, 4)
             print(f"{motion.__name__}: {with_it:.1f} dB with late reprojection, {without:.1f} "
                   f"without, gain {with_it - without:.1f} dB at {LATENCY_S * 1000:.0f} ms")
         bytes_ = self.see(free(0.2, size), size=size)
