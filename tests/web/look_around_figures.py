@@ -87,7 +87,7 @@ class Page:
                 "motion_to_picture": self.latency()}
 
     def latency(self):
-        text = self.page.evaluate("document.getElementById('facts').innerText")
+        text = self.page.evaluate("document.getElementById('facts').textContent")
         found = re.search(r"\d+ ms: \d+ to the server, .* back", text)
         return found.group() if found else "unknown"
 

@@ -253,6 +253,9 @@ class RayServer(http.server.ThreadingHTTPServer):
         self.url = f"http://127.0.0.1:{self.server_address[1]}/"
         threading.Thread(target=self.serve_forever, daemon=True).start()
 
+    def handle_error(self, request, client_address):
+        """A browser that goes while it is answered is no fault."""
+
     def close(self):
         self.shutdown()
         self.server_close()
