@@ -85,6 +85,20 @@ TEST(EyePoses, areRefusedWhereNothingIsSeenByThem) {
   }
 }
 
+TEST(EyePoses, areRefusedIfTheyAreTwoOfADisplayOfOneEye) {
+  TestServer server;
+  Bystander bystander(server);
+  v1::OpenDisplay open = trackedEyes(2);
+  open.mutable_display()->mutable_stereo()->set_layout(v1::STEREO_LAYOUT_SINGLE);
+  TestWatcher watcher(server.connect(), open);
+  v1::StreamAtlasesRequest one = goodEyes();
+  one.mutable_eye_poses()->mutable_eyes()->RemoveLast();
+  watcher.send(one);
+  watcher.send(goodEyes());
+  EXPECT_EQ(refusalOf(watcher.finish()), (Refusal{kInvalid, "eye_poses.eyes"}));
+  bystander.expectUndisturbed();
+}
+
 TEST(EyePoses, areRefusedBehindTheFocalPlaneOfTheStream) {
   TestServer server;
   Bystander bystander(server);

@@ -41,6 +41,31 @@ TEST_F(ServiceEyesTest, showsWhatFixedEyesInTheirPlaceWouldSee) {
   }
 }
 
+v1::OpenDisplay single(v1::OpenDisplay open) {
+  open.mutable_display()->mutable_stereo()->set_layout(v1::STEREO_LAYOUT_SINGLE);
+  return open;
+}
+
+TEST_F(ServiceEyesTest, showsOneEyeWhatAFixedOneInItsPlaceWouldSee) {
+  publish();
+  const auto tracked = view(single(openTracked()));
+  const Atlas first = tracked->waitForFrame(1);
+  ASSERT_EQ(first.layout->views_size(), 1);
+  EXPECT_EQ(first.layout->size().width(), kEyeWidth_px);
+  EXPECT_EQ(first.layout->views(0).pose().position().x(), 0) << "in the middle";
+  int64_t time_ns = 0;
+  for (const Place& at : {Place{0.25, 0, 0}, Place{-0.1, 0.05, 0.25}}) {
+    v1::EyePoses poses = posesAt(++time_ns, at, at);
+    poses.mutable_eyes()->RemoveLast();
+    const Atlas atlas = tracked->seenBy(poses);
+    v1::OpenDisplay open = single(openEyes());
+    addWindowCamera(*open.mutable_display()->mutable_stereo(), at);
+    const Atlas fixed = view(open)->waitForFrame(1);
+    EXPECT_EQ(colorOf(atlas), colorOf(fixed));
+    EXPECT_EQ(atlas.layout->views(0).pose().position().x(), at.x_m);
+  }
+}
+
 TEST_F(ServiceEyesTest, standsInForEyesUntilTheyCome) {
   publish();
   const auto tracked = view(openTracked());

@@ -182,6 +182,13 @@ class LookAround(unittest.TestCase):
         self.assertEqual(self.browser.evaluate(f"{STAGE}.dataset.view"), "24", "not yet answered")
         keep(self.browser.screenshot(), "reprojected")
 
+    def test_without_a_gpu_there_is_no_reprojection_unless_it_is_asked_for(self):
+        self.start(reprojection="auto")
+        is_on = "import('/late_picture.js').then(({LatePicture}) => new LatePicture(%r).isOn)"
+        self.assertFalse(self.browser.evaluate(is_on % "auto"))
+        self.assertFalse(self.browser.evaluate(is_on % "off"))
+        self.assertTrue(self.browser.evaluate(is_on % "on"))
+
     def test_an_eye_without_a_place_is_never_sent(self):
         self.start()
         count = len(self.server.poses)
