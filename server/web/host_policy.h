@@ -40,6 +40,8 @@ class HostPolicy {
   absl::Status checkPage(const PageHeaders& page) const;
   // The one of `allowed_origins` that the page belongs to; "" if it belongs to none.
   std::string allowedOrigin(const PageHeaders& page) const;
+  // All of them, in lower case.
+  const std::vector<std::string>& allowedOrigins() const { return origins_; }
 
  private:
   std::vector<std::string> names_;

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "absl/strings/str_join.h"
 #include "base/heap.h"
 #include "base/nearest_name.h"
 #include "base/printable.h"
@@ -24,15 +25,22 @@ namespace {
 // Everything comes from the server itself; pictures are made from bytes the page received.
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
-    "connect-src 'self'; worker-src 'self'; base-uri 'none'; form-action 'none'; "
-    "frame-ancestors 'none'";
+    "connect-src 'self'; worker-src 'self'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors ";
 
-HttpReply assetReply(const PageAsset& asset, const HttpRequest& request) {
+// Pages of the allowed origins may show this one in a frame.
+std::string contentSecurityPolicy(const HostPolicy& host_policy) {
+  const std::string origins = absl::StrJoin(host_policy.allowedOrigins(), " ");
+  return kContentSecurityPolicy + (origins.empty() ? "'none'" : origins);
+}
+
+HttpReply assetReply(const WebContext& context, const PageAsset& asset,
+                     const HttpRequest& request) {
   HttpReply reply;
   reply.type = asset.type;
   reply.headers = {{"ETag", std::string(asset.etag)},
                    {"Cache-Control", "no-cache"},
-                   {"Content-Security-Policy", kContentSecurityPolicy},
+                   {"Content-Security-Policy", contentSecurityPolicy(context.host_policy)},
                    {"Referrer-Policy", "no-referrer"}};
   if (request.if_none_match == asset.etag) {
     reply.status = 304;
@@ -124,7 +132,7 @@ net::awaitable<HttpReply> route(WebContext& context, HttpRequest request) {
   const absl::StatusOr<Url> url = parseUrl(request.target);
   if (!url.ok()) co_return errorReply(url.status());
   for (const PageAsset& asset : pageAssets()) {
-    if (url->path == asset.path) co_return assetReply(asset, request);
+    if (url->path == asset.path) co_return assetReply(context, asset, request);
   }
   if (url->path == kHealthPage) co_return healthReply(context);
   if (url->path == kApiSession) co_return answerSession(context, request);

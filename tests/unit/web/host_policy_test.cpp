@@ -44,6 +44,11 @@ TEST(HostPolicy, letsProgramsAndItsOwnPagesWatch) {
   }
 }
 
+TEST(HostPolicy, listsTheOriginsThatMayFrameThePage) {
+  EXPECT_EQ(policy().allowedOrigins(), std::vector<std::string>{"https://show.example"});
+  EXPECT_TRUE(HostPolicy({}, {}, {}).allowedOrigins().empty());
+}
+
 TEST(HostPolicy, letsNoForeignPageEmbedPictures) {
   for (const char* site : {"", "none", "same-origin"}) {
     EXPECT_TRUE(policy().checkPage({.fetch_site = site}).ok()) << site;
