@@ -15,14 +15,19 @@ export function isOnLoopback() {
   return ['localhost', '127.0.0.1', '[::1]'].includes(location.hostname);
 }
 
-// A choice made by hand is kept, so that a reload and a link show the same; null = not there.
-export function keepInAddress(changes) {
+// The page's address with other parameters; null = not there.
+export function addressWith(changes) {
   const parameters = pageParameters();
   for (const [name, value] of Object.entries(changes)) {
     if (value === null) parameters.delete(name);
     else parameters.set(name, value);
   }
-  history.replaceState(null, '', `?${parameters}`);
+  return `?${parameters}`;
+}
+
+// A choice made by hand is kept, so that a reload and a link show the same; null = not there.
+export function keepInAddress(changes) {
+  history.replaceState(null, '', addressWith(changes));
 }
 
 // The name of a device, where that says all of a display; undefined elsewhere.

@@ -12,6 +12,11 @@ const kSilenceFirst_ms = 10_000;  // and after so long the connection is dead
 // One large picture may take a slow network longer: then the next connection is given more time.
 const kSilenceMax_ms = 160_000;
 const kTick_ms = 500;
+// A stream that never was there may come soon: a publisher needs some time to start.
+const kMissing_ms = 60_000;
+// Refusals that no waiting changes.
+const kLasting = ['INVALID_ARGUMENT', 'OUT_OF_RANGE', 'PERMISSION_DENIED', 'UNIMPLEMENTED'];
+const kRefused = 1008;  // close code
 
 export class AtlasStream {
   #socket = null;
@@ -21,10 +26,14 @@ export class AtlasStream {
   #asked_ms = 0;  // when the newest question for one went
   #silence_ms = kSilenceFirst_ms;
   #isClosed = true;
+  #refusal = null;     // the newest over this connection
+  #missing_ms = null;  // since when the server knows no such stream
+  #known = '';         // the newest stream that gave a picture
   #changeCount = 0;  // changes sent over this connection
 
   // Handlers: onAtlas(atlas), onLive(), onAsked() for another picture, onWaiting(reason),
-  // onRefused(error), onClock(the answer to a clock_probe)
+  // onRefused(error), onGivenUp(error): it will not be tried again, onClock(the answer to a
+  // clock_probe)
   constructor(handlers) {
     this.handlers = handlers;
     setInterval(() => this.#listen(), kTick_ms);
@@ -37,6 +46,7 @@ export class AtlasStream {
     this.asked = asked;
     this.#isClosed = false;
     this.#failures = 0;
+    this.#missing_ms = null;
     this.#connect();
   }
 
@@ -89,6 +99,7 @@ export class AtlasStream {
     socket.binaryType = 'arraybuffer';
     this.#socket = socket;
     this.#changeCount = 0;
+    this.#refusal = null;
     this.#heard_ms = performance.now();
     let opened = false;
     socket.onopen = () => {
@@ -103,8 +114,12 @@ export class AtlasStream {
       if (this.#socket !== socket) return;
       this.#heard_ms = performance.now();
       this.#silence_ms = kSilenceFirst_ms;
-      if (typeof data === 'string') this.#takeText(JSON.parse(data));
-      else this.handlers.onAtlas(parseAtlasMessage(data));
+      if (typeof data === 'string') {
+        this.#takeText(JSON.parse(data));
+        return;
+      }
+      this.#known = this.asked.stream;
+      this.handlers.onAtlas(parseAtlasMessage(data));
     };
     socket.onclose = ({code}) => {
       if (this.#socket !== socket) return;
@@ -114,8 +129,23 @@ export class AtlasStream {
   }
 
   #takeText({error, clock}) {
-    if (error) this.handlers.onRefused(error);
     if (clock) this.handlers.onClock?.(clock);
+    if (!error) return;
+    this.#refusal = error;
+    this.handlers.onRefused(error);
+  }
+
+  // Whether another try may bring what this one did not. A stream that was there comes back.
+  #mayPass({code}) {
+    if (kLasting.includes(code)) return false;
+    if (code !== 'NOT_FOUND' || this.asked.stream === this.#known) return true;
+    this.#missing_ms ??= performance.now();
+    return performance.now() - this.#missing_ms < kMissing_ms;
+  }
+
+  #giveUp(error) {
+    this.#isClosed = true;
+    this.handlers.onGivenUp(error);
   }
 
   // A server on another machine may go, and a network on the way, without a word: browsers say
@@ -155,12 +185,22 @@ export class AtlasStream {
   async #retry(opened, code) {
     // Pages may not read why an upgrade was refused; a plain request to the same URL tells.
     let reason = code === 1001 ? 'The server is going away.' : 'The connection was lost.';
+    if (code === kRefused && this.#refusal && !this.#mayPass(this.#refusal)) {
+      this.#giveUp(this.#refusal);
+      return;
+    }
     if (!opened) {
       const signal = AbortSignal.timeout(kConnect_ms);
       const refusal = await fetch(askedPath(this.asked), {signal})
           .then((reply) => reply.status === 426 ? null : reply.json()).catch(() => null);
       if (this.#socket || this.#isClosed) return;
-      if (refusal?.error) this.handlers.onRefused(refusal.error);
+      if (refusal?.error) {
+        if (!this.#mayPass(refusal.error)) {
+          this.#giveUp(refusal.error);
+          return;
+        }
+        this.handlers.onRefused(refusal.error);
+      }
       reason = refusal?.error?.message ?? 'The server does not answer.';
     }
     const longest_ms = Math.min(kRetryMax_ms, kRetryFirst_ms * 2 ** this.#failures++);

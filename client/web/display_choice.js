@@ -2,6 +2,7 @@
 // Which display is watched: a preset of any kind, a quilt of one's own, or colour with depth; which
 // of its views are, and in how much detail.
 import {keepInAddress, pageParameters} from './address.js';
+import {allow} from './allowed.js';
 import {kQuiltSteps} from './detail_steps.js';
 import {put} from './display_document.js';
 import {RgbdChoice} from './rgbd_choice.js';
@@ -16,6 +17,7 @@ const kModes = ['look', 'single', 'quilt', 'panel', 'eye', 'rgbd'];
 // Modes of displays that are no quilts: they have one picture, and nothing to weave.
 const kWholeModes = ['quilt', 'single'];
 const kSizes = {quilt: 'size', rgbd: 'view_size'};  // fields of kinds that have any size
+const kFixedSize = 'This display always has the size of its panel.';
 
 const byId = (id) => document.getElementById(id);
 
@@ -79,6 +81,12 @@ export class DisplayChoice {
 
   // Displays of other kinds are seen whole.
   get isQuilt() { return this.kind === 'quilt'; }
+
+  // Why there are no others.
+  get modesReason() {
+    return `${byId('preset').selectedOptions[0]?.text ?? 'This display'} has one picture: this ` +
+        'needs the views of a quilt.';
+  }
 
   // The ways to look at it.
   get modes() { return this.isQuilt ? kModes : kWholeModes; }
@@ -225,6 +233,7 @@ export class DisplayChoice {
 
   #showFields() {
     const chosen = this.#document;
+    allow(byId('detail'), this.kind in kSizes ? '' : kFixedSize);
     byId('quilt-name').textContent = this.isQuilt ? 'Quilt' : 'Whole picture';
     byId('preset').value = chosen.get(`${this.kind}.preset`) ??
         (this.kind === 'rgbd' ? this.rgbd.valueOf(chosen.get('rgbd.form')) : '');

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Controls that change the display while it is watched: focal distance, whether it follows the
 // content, view cone, reflections.
+import {allow, kNoPicture} from './allowed.js';
 
 const kThrottle_ms = 120;
 const kFollow_s = 1;
 const kDegPerRad = 180 / Math.PI;
 const kBounces = 2;  // what mirrors show of other mirrors, too
+
+// Controls of displays whose views are spread.
+const kSpread = ['focus', 'follow', 'cone', 'reset'];
+const kNoPlane = 'This display has no focal plane and no cone: its views are not spread.';
+const kAtRest = 'Focus and cone are as the display has them.';
 
 const byId = (id) => document.getElementById(id);
 
@@ -18,6 +24,7 @@ export class DisplayControls {
   // onChange(): the display is another
   constructor(onChange) {
     this.onChange = onChange;
+    for (const id of kSpread) allow(byId(id), kNoPicture);
     byId('focus').addEventListener('input', ({target}) => {
       const focus_m = this.#neutral_m * 2 ** target.valueAsNumber;
       this.#write('focus', `${focus_m.toFixed(2)} m`);
@@ -51,6 +58,15 @@ export class DisplayControls {
     const {kind} = this.#chosen;
     const changes = Object.entries(fields).map(([name, value]) => [`${kind}.${name}`, value]);
     this.#change(Object.fromEntries(changes), false);
+    this.#offerReset();
+  }
+
+  // There is something to take back where the display says either.
+  #offerReset() {
+    const {kind} = this.#chosen;
+    const isMoved = ['focal_distance_m', 'view_cone_rad'].some(
+        (name) => this.#chosen.get(`${kind}.${name}`) !== undefined);
+    allow(byId('reset'), isMoved ? '' : kAtRest);
   }
 
   // Another stream or device: its focal distance becomes the middle of the slider.
@@ -62,8 +78,9 @@ export class DisplayControls {
   show(layout) {
     // Colour with depth has neither: its views are one.
     const isSpread = layout.view_cone_rad > 0;
-    for (const id of ['focus', 'follow', 'cone', 'reset']) byId(id).disabled = !isSpread;
+    for (const id of kSpread) allow(byId(id), isSpread ? '' : kNoPlane);
     if (!isSpread) return;
+    this.#offerReset();
     const sliding = document.querySelector('#focus:active, #cone:active');
     if (this.#isPending || sliding) return;
     if (this.#neutral_m === 0) this.#neutral_m = layout.focal_distance_m;

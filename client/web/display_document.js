@@ -26,6 +26,13 @@ function parsed(name) {
                   `Take it out, or write it as {"quilt": {"preset": "portrait"}}.`);
 }
 
+// A name that no preset has: those there are lead out.
+function unknownPreset(name, presets) {
+  const known = presets.map((preset) => preset.name);
+  const ways = known.map((text) => ({text, changes: {preset: text, display: null}}));
+  return Object.assign(new Error(`The server has no preset "${name}". It has these:`), {ways});
+}
+
 // A field by its path: 'quilt.columns'; null takes it away.
 export function put(display, path, value) {
   const names = path.split('.');
@@ -43,7 +50,8 @@ export class DisplayDocument {
   #encoding = {};
   #passing = {};  // by path: what nobody keeps
 
-  // The document, or null where the address does not say a display: then onProblem(sentence).
+  // The document, or null where the address does not say a display: then onProblem(an Error with a
+  // sentence, and `ways` as showTrouble() takes them).
   // Throws where the server does not answer. Waits until the page has signed in, if it must.
   static async ofAddress(onProblem) {
     await enter();
@@ -52,7 +60,7 @@ export class DisplayDocument {
     try {
       return new DisplayDocument(presets, fields);
     } catch (error) {
-      onProblem(error.message);
+      onProblem(error);
       return null;
     }
   }
@@ -73,6 +81,8 @@ export class DisplayDocument {
     if (preset !== undefined) {  // a device of any kind
       this.#display = {[this.presetOf(preset)?.kinds[0] ?? 'quilt']: {preset}, ...others};
     }
+    const named = preset ?? this.get(`${this.kind}.preset`);
+    if (named !== undefined && !this.presetOf(named)) throw unknownPreset(named, presets);
     const [width, height] = ['width', 'height'].map((side) => Number(parameters.get(side)));
     const sizes = {quilt: 'size', rgbd: 'view_size'};
     const size = sizes[this.kind];

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lists beside the picture: a lens before every view, in focus at the focal plane; atlases
 // between the frames of a stream; how much is spent on all of it.
+import {allow, kNoPicture} from './allowed.js';
 
 const kRate_hz = 60;
 const kModes = {predict: 'TEMPORAL_MODE_PREDICT', interpolate: 'TEMPORAL_MODE_INTERPOLATE'};
 const kQualities = {draft: 'QUALITY_DRAFT', best: 'QUALITY_BEST'};
+
+const kSharp = 'This display is sharp all over: it has no focal plane.';
 
 const nameOf = (words, value) => Object.keys(words).find((name) => words[name] === value);
 
@@ -37,6 +40,7 @@ export class DisplayLists {
 
   // onChange(changes): of the display's fields by path; null = the default
   constructor(onChange) {
+    allow(document.getElementById('lens'), kNoPicture);
     for (const [id, {path, value}] of Object.entries(kLists)) {
       document.getElementById(id).addEventListener('change', ({target}) => {
         const changes = {[path]: target.value ? value(target.value) : null};
@@ -61,6 +65,7 @@ export class DisplayLists {
 
   // Shows the values of the newest atlas: colour with depth is sharp.
   show(layout) {
-    document.getElementById('lens').disabled = !(layout.view_cone_rad > 0);
+    const isSharp = !(layout.view_cone_rad > 0);
+    allow(document.getElementById('lens'), isSharp ? kSharp : '');
   }
 }

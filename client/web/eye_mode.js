@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lenticular simulator: what an eye sees of the woven panel, from where it is dragged to.
+import {allow} from './allowed.js';
 import {parseCalibration} from './calibration.js';
 import {kSamplePanels} from './sample_panels.js';
 
@@ -100,6 +101,10 @@ export class EyeMode {
   }
 
   #read() {
+    const isBare = byId('eye-bare').checked;
+    for (const id of ['eye-position', 'eye-distance', 'eye-blur']) {
+      allow(byId(id), isBare ? 'Without the lens, the panel looks the same from everywhere.' : '');
+    }
     this.#position = byId('eye-position').valueAsNumber;
     const position = `${(100 * this.#position).toFixed(0)} %`;
     byId('eye-position').setAttribute('aria-valuetext', `${position} of the cone from its middle`);

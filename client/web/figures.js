@@ -3,6 +3,7 @@
 import {Chart, spanText} from './chart.js';
 import {latencyText} from './eye_poses.js';
 import {shownViews} from './stage.js';
+import {Stillness} from './stillness.js';
 
 const kRateWindow_ms = 3000;
 const kSmoothing = 0.25;  // weight of the newest atlas in a running mean
@@ -12,6 +13,9 @@ const kTick_ms = 1000;
 const kRefresh_ms = 250;
 const kLongLatency_ms = 10_000;  // from here on in seconds
 const kMsPerNs = 1e-6;
+// Scales of charts, in words.
+const kMinute = {unit: '', begin: '1 min ago'};
+const kHistory = `${kHistoryCount} pictures ago`;
 
 // Meaning of each bar, in the order in which an atlas meets them.
 const kStages = [
@@ -66,6 +70,8 @@ export class Figures {
   #facts = {};
   #drops = 0;
   #motion = null;
+  #stillness = new Stillness();
+  #isOver = false;  // the publisher is gone
 
   constructor() {
     for (const [index, [stage, label, title]] of kStages.entries()) {
@@ -83,7 +89,7 @@ export class Figures {
       this.#shares[answer] = {part, value: element('dd', {textContent: '–'}, byId('coverage'))};
     }
     for (const fact of ['Picture', 'Frame', 'Time', 'Views', 'Size', 'A view', 'Data',
-                        'Data rate', 'Motion to picture']) {
+                        'Data rate', 'Motion to picture', 'Skipped']) {
       element('dt', {textContent: fact}, byId('facts'));
       this.#facts[fact] = element('dd', {textContent: '–'}, byId('facts'));
     }
@@ -97,18 +103,20 @@ export class Figures {
     const sums = (samples) =>
         samples.map((values) => values.reduce((sum, value) => sum + value, 0));
     this.#charts = {
-      rate: {colors: ['--accent'], count: kSecondsCount, describe: (samples) =>
+      rate: {colors: ['--accent'], count: kSecondsCount, ...kMinute, describe: (samples) =>
         `Pictures a second, over ${samples.length} s: ${spanText(firsts(samples), 1)}`},
       latency: {colors: kStacked.map((_, index) => stageColor(index)), count: kHistoryCount,
-                describe: (samples) => `Latency of the last ${samples.length} pictures, ms: ` +
-                    spanText(sums(samples), 0)},
-      drops: {colors: ['--bad'], count: kSecondsCount, describe: (samples) =>
-        `Pictures skipped each second, over ${samples.length} s: ${spanText(firsts(samples), 0)}`},
+                unit: ' ms', begin: kHistory, describe: (samples) =>
+                  `Latency of the last ${samples.length} pictures, ms: ` +
+                      spanText(sums(samples), 0)},
+      drops: {colors: ['--second'], count: kSecondsCount, ...kMinute, describe: (samples) =>
+        `Pictures skipped for newer ones each second, over ${samples.length} s: ` +
+            spanText(firsts(samples), 0)},
       coverage: {colors: ['--accent', '--second', '--warm', '--bad', '--empty'],
-                 count: kHistoryCount, highest: 1,
+                 count: kHistoryCount, highest: 100, unit: ' %', begin: kHistory,
                  describe: (samples) => 'What the picture is made of, now: ' +
                      kAnswers.map(([, label], index) =>
-                         `${label} ${(100 * samples.at(-1)[index]).toFixed(1)} %`).join('; ')},
+                         `${label} ${samples.at(-1)[index].toFixed(1)} %`).join('; ')},
     };
     for (const [name, options] of Object.entries(this.#charts)) {
       this.#charts[name] = new Chart(byId(`chart-${name}`), options);
@@ -120,12 +128,19 @@ export class Figures {
     this.#means = {};
     this.#drops = this.#dropsBefore = 0;
     this.#newest = null;
+    this.#stillness.clear();
+    this.#isOver = false;
     for (const chart of Object.values(this.#charts)) chart.clear();
   }
 
   // The browser was too slow for an atlas it had received.
   noteDropped() {
     this.#drops++;
+  }
+
+  // From now on all pictures are other views of one frame.
+  set isOver(isOver) {
+    this.#isOver = isOver;
   }
 
   noteArrived() {
@@ -146,22 +161,22 @@ export class Figures {
     for (const [stage] of kStages) {
       if (`${stage}_ns` in times) figures[stage] = times[`${stage}_ns`] * kMsPerNs;
     }
-    figures.latency = figures.total + figures.mailbox + figures.delivery;
+    // A picture that stood before it was asked for has no latency.
+    const isNew = this.#stillness.note(atlas.header, performance.now());
+    if (isNew) figures.latency = figures.total + figures.mailbox + figures.delivery;
     for (const [name, value] of Object.entries(figures)) {
       const before = this.#means[name] ?? value;
       this.#means[name] = before + (value - before) * kSmoothing;
     }
-    this.#charts.latency.push(kStacked.map((stage) => figures[stage] ?? 0));
-    this.#charts.coverage.push(kAnswers.map(([answer]) => atlas.header.coverage[answer]));
+    if (isNew) this.#charts.latency.push(kStacked.map((stage) => figures[stage] ?? 0));
+    this.#charts.coverage.push(kAnswers.map(([answer]) => 100 * atlas.header.coverage[answer]));
     this.#newest = atlas;
   }
 
   #refresh() {
     if (!this.#newest) return;
     const rate_hz = this.#rate_hz();
-    byId('rate').textContent = rate_hz.toFixed(rate_hz < 1 ? 2 : 1);
-    this.#refreshLatency();
-    byId('drops').textContent = this.#dropCount();
+    this.#refreshHeadline(rate_hz);
     this.#refreshStages();
     this.#refreshCoverage();
     this.#refreshFacts(rate_hz);
@@ -190,12 +205,19 @@ export class Figures {
     this.#dropsBefore = drops;
   }
 
-  #refreshLatency() {
+  #refreshHeadline(rate_hz) {
     const {latency} = this.#means;
-    if (latency === undefined) return;
+    const isStill = this.#isOver || this.#stillness.isStill(performance.now());
     const isLong = latency >= kLongLatency_ms;
-    byId('latency').textContent = isLong ? (latency / 1000).toFixed(1) : latency.toFixed(0);
-    byId('latency-unit').textContent = `${isLong ? 's' : 'ms'} latency`;
+    const unit = isLong ? 's' : 'ms';
+    const amount = latency === undefined ? '–' : (isLong ? latency / 1000 : latency)
+        .toFixed(isLong ? 1 : 0);
+    const rate = rate_hz.toFixed(rate_hz < 1 ? 2 : 1);
+    byId('rate').textContent = isStill ? '–' : rate;
+    byId('latency').textContent = isStill ? 'still' : amount;
+    byId('latency-unit').textContent = isStill ? 'no newer picture' : `${unit} latency`;
+    const moving = latency === undefined ? '' : `${rate}/s, ${amount} ${unit}`;
+    byId('brief').textContent = isStill ? 'still' : moving;
   }
 
   #refreshStages() {
@@ -231,6 +253,7 @@ export class Figures {
       'Data': `${(bytes / 1e6).toFixed(2)} MB`,
       'Motion to picture': latencyText(this.#motion),
       'Data rate': `${(rate_hz * bytes * 8 / 1e6).toFixed(1)} Mbit/s`,
+      'Skipped': `${this.#dropCount()} for newer pictures`,
     };
     for (const [fact, value] of Object.entries(facts)) this.#facts[fact].textContent = value;
   }

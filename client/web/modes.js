@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The ways to look at a display: one at a time, chosen by radio buttons, keys or the address.
+import {allow} from './allowed.js';
 
 const byId = (id) => document.getElementById(id);
 
@@ -13,10 +14,10 @@ export class Modes {
     byId('modes').addEventListener('change', ({target}) => this.choose(target.value));
   }
 
-  // To some names, of which the first is the usual one.
-  restrict(names) {
+  // To some names, of which the first is the usual one. reason: why the others are not there
+  restrict(names, reason) {
     this.usual = names[0];
-    for (const radio of this.radios) radio.disabled = !names.includes(radio.value);
+    for (const radio of this.radios) allow(radio, names.includes(radio.value) ? '' : reason);
     if (this.mode && !names.includes(this.mode)) this.choose(this.usual);
   }
 

@@ -3,6 +3,7 @@
 import {keepInAddress, pageParameters} from './address.js';
 import {Around} from './around.js';
 import {AtlasStream} from './atlas_stream.js';
+import {watchAttention} from './attention.js';
 import {AutoDetail} from './auto_detail.js';
 import {Commands} from './commands.js';
 import {Decoder} from './decoder.js';
@@ -14,24 +15,27 @@ import {DisplayDocument} from './display_document.js';
 import {DisplayLists} from './display_lists.js';
 import {EyeMode} from './eye_mode.js';
 import {Figures} from './figures.js';
+import {offerFullScreen} from './full_screen.js';
 import {Look} from './look.js';
+import {offerModeKeys} from './mode_keys.js';
 import {Modes} from './modes.js';
-import {notice, say} from './notice.js';
+import {notice} from './notice.js';
+import {setState, shapePicture} from './page_state.js';
 import {PanelMode} from './panel_mode.js';
 import {Patience} from './patience.js';
 import {labelReduced} from './reduced_label.js';
 import {RgbdMode} from './rgbd_mode.js';
-import {onKey, toggle} from './shortcuts.js';
+import {toggle} from './shortcuts.js';
 import {SingleMode} from './single_mode.js';
 import {Stage} from './stage.js';
 import {StreamList} from './stream_list.js';
 import {Tilt} from './tilt.js';
+import {badAddress, endTrouble, missingStream, showTrouble} from './trouble.js';
 import {ViewsOutside} from './views_outside.js';
 import {Weaver} from './weaver.js';
 import {XrButton} from './xr_button.js';
 
 const kRetry_ms = 1000;
-const kHiddenGrace_ms = 5000;
 const kLook_ms = 100;     // from one look for a picture that stands still to the next
 const kResized_ms = 150;  // a size that stays as long is asked for
 const kPainted = ['panel', 'eye', 'rgbd'];  // modes that draw by themselves
@@ -41,7 +45,6 @@ const byId = (id) => document.getElementById(id);
 const root = document.documentElement;
 let watching = null;  // name of the stream
 let chosen = null;    // the DisplayDocument
-let hiddenTimer = 0;
 let resizeTimer = 0;
 let isPublisherGone = false;
 
@@ -101,16 +104,17 @@ const decoder = new Decoder(
       const {layout} = atlas.header;
       if (display.isEye) around.take(atlas, stream.isNewest(atlas));
       stage.show(atlas);
-      setState('live');
+      setState('live', watching, viewCount());
       single.layoutChanged(viewCount());
       controls.show(display.isEye ? {...layout, view_cone_rad: display.cone_rad} : layout);
       lists.show(layout);
-      budget.show(atlas.header.depth_budget);
+      budget.show(atlas.header.depth_budget, layout);
       outside.show(atlas.header.views_outside, layout);
       commands.show(display.elsewhere(watching));
       labelReduced(byId('reduced'), layout.tile_size.width, display.fullWidth_px,
           display.isAutomatic);
       nameView();
+      shapePicture(layout, modes.mode);
     },
     (atlas) => {
       stream.shown(atlas.header.delivery);
@@ -136,6 +140,10 @@ const stream = new AtlasStream({
     notice(`${reason} Trying again.`, 'bad', Infinity);
   },
   onRefused(error) { notice(error.message, 'bad'); },
+  onGivenUp({message}) {
+    patience.end();
+    refuse({title: 'The server does not show this', text: message, again: () => watch(watching)});
+  },
 });
 
 const look = new Look(byId('stage'), byId('view'), (position) => {
@@ -163,21 +171,17 @@ async function paint(mode) {
   stage.invalidate();
 }
 
-function setWhole(isWhole) {
-  stage.whole = isWhole;
-  stage.invalidate();
-}
-
 const modes = new Modes({
   look: {enter: () => { look.active = true; }, leave: () => { look.active = false; }},
   single,
-  quilt: {enter: () => setWhole(true), leave: () => setWhole(false)},
+  quilt: {enter: () => { stage.whole = true; }, leave: () => { stage.whole = false; }},
   panel: {enter: () => paint(panelMode), leave: () => panelMode.leave()},
   eye: {enter: () => paint(eyeMode)},
   rgbd: new RgbdMode(stage),
 }, (mode) => {
   if (!kPainted.includes(mode)) stage.painter = null;
   seeAsOf(mode);
+  shapePicture(stage.layout, mode);
   stage.invalidate();
   keepInAddress({mode: mode === 'look' ? null : mode});
 });
@@ -196,35 +200,33 @@ function seeAsOf(mode) {
 function offerModes() {
   controls.showChosen(chosen);
   lists.showChosen(chosen);
-  modes.restrict(display.modes);
+  modes.restrict(display.modes, display.modesReason);
 }
 
 function nameView() {
   const count = viewCount();
-  const view = Math.round(stage.position * (count - 1)) + 1;
-  byId('ruler-view').textContent = count ? `view ${view} of ${count}` : 'view –';
+  const view = Math.round(stage.position * (count - 1));
+  byId('ruler-view').textContent = count ? `view ${view} of 0–${count - 1}` : 'view –';
   byId('view').setAttribute('aria-valuetext', byId('ruler-view').textContent);
 }
 
-function setState(state) {
-  root.dataset.state = state;
-  byId('welcome').hidden = state !== 'no-stream';
-  say({
-    'live': `Live: ${watching}, views: ${viewCount() || 'none yet'}.`,
-    'connecting': `Connecting to ${watching}.`,
-    'no-stream': 'No stream is live.',
-  }[state] ?? '');
+// Nothing can be shown: what showTrouble() takes.
+function refuse(trouble) {
+  setState('refused');
+  notice('');
+  showTrouble(trouble);
 }
 
 function watch(name) {
   watching = name;
+  endTrouble();
   isPublisherGone = false;
   patience.end();
   streams.restart();
   figures.clear();
   controls.forget();
   chosen.forgetPassing();
-  setState('connecting');
+  setState('connecting', watching);
   stream.open(display.asked(name));
 }
 
@@ -236,8 +238,11 @@ const streams = new StreamList({
     setState('no-stream');
     notice('');
   },
+  onMissing(name, others, isLooking) {
+    refuse(missingStream(name, others, isLooking ? null : () => streams.lookAgain()));
+  },
   onPublisher(isThere) {
-    isPublisherGone = !isThere;
+    isPublisherGone = figures.isOver = !isThere;
     notice(isThere ? '' : 'The publisher left. This is its last frame.', '', Infinity);
   },
   onSilence() { if (!watching) notice(kSilence, 'bad', Infinity); },
@@ -245,7 +250,7 @@ const streams = new StreamList({
 
 async function start() {
   try {
-    chosen = await DisplayDocument.ofAddress((problem) => notice(problem, 'bad', Infinity));
+    chosen = await DisplayDocument.ofAddress((problem) => refuse(badAddress(problem)));
     if (!chosen) return;
   } catch {
     setTimeout(start, kRetry_ms);
@@ -258,17 +263,9 @@ async function start() {
   streams.poll();
 }
 
-onKey('f', () => byId('fullscreen').click());
-onKey('q', () => modes.choose(modes.mode === 'quilt' ? 'look' : 'quilt'));
-modes.radios.forEach((radio, index) => {
-  onKey(String(index + 1), () => modes.choose(radio.value));
-});
-toggle(byId('details'), 'i', (isOn) => { byId('panel').hidden = !isOn; });
-byId('fullscreen').hidden = !document.fullscreenEnabled;  // phones that fill theirs anyway
-byId('fullscreen').addEventListener('click', () => {
-  if (document.fullscreenElement) document.exitFullscreen();
-  else document.querySelector('main').requestFullscreen();
-});
+offerFullScreen();
+offerModeKeys(modes);
+toggle(byId('details'), 'c', (isOn) => { byId('panel').hidden = !isOn; }, 'controls');
 
 byId('stream').addEventListener('change', ({target}) => {
   keepInAddress({stream: target.value});
@@ -281,19 +278,18 @@ setInterval(() => {
   if (isDetailAutomatic()) autoDetail.look(performance.now(), isPublisherGone);
 }, kLook_ms);
 
-// Nobody looks: the display need not be traced.
+// The display need not be traced.
 function rest() {
+  if (!watching) return;
   stream.close();
   patience.end();
   setState('hidden');
 }
-document.addEventListener('visibilitychange', () => {
-  clearTimeout(hiddenTimer);
-  autoDetail.restart();
-  if (document.hidden) hiddenTimer = setTimeout(rest, kHiddenGrace_ms);
-  else if (root.dataset.state === 'hidden' && watching) watch(watching);
+
+watchAttention({
+  onTurn() { autoDetail.restart(); },
+  onRest: rest,
+  onLook() { if (root.dataset.state === 'hidden' && watching) watch(watching); },
 });
-// Browsers keep a page that was left, with its connection but no timers, for when one goes back.
-addEventListener('pagehide', rest);
 
 start();

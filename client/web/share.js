@@ -2,6 +2,7 @@
 // A QR code for phones and people without a token: a link to the display, which the server signs
 // and which is good for ten minutes.
 import {isOnLoopback, picturePath} from './address.js';
+import {allow, kNoPicture} from './allowed.js';
 import {copy} from './copy.js';
 import {notice} from './notice.js';
 import {onKey} from './shortcuts.js';
@@ -30,6 +31,7 @@ export class Share {
   #asked = null;
 
   constructor() {
+    allow(byId('share'), kNoPicture);
     byId('share').addEventListener('click', () => this.#open());
     byId('shared-close').addEventListener('click', () => this.#close());
     const [field, button] = [byId('shared-link'), byId('copy-shared')];
@@ -41,7 +43,7 @@ export class Share {
   // asked: {stream, display, encoding}, what is shared.
   show(asked) {
     this.#asked = asked;
-    byId('share').disabled = false;
+    allow(byId('share'), '');
   }
 
   async #open() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Single views: one at a time, by number, standing still.
+import {allow} from './allowed.js';
 
 const byId = (id) => document.getElementById(id);
 
@@ -13,7 +14,7 @@ export class SingleMode {
     this.stage = stage;
     this.onView = onView;
     byId('single-view').addEventListener('input', ({target}) => {
-      if (target.value !== '') this.#take(target.valueAsNumber - 1);
+      if (target.value !== '') this.#take(target.valueAsNumber);
     });
     byId('single-back').addEventListener('click', () => this.#take(this.#view - 1));
     byId('single-on').addEventListener('click', () => this.#take(this.#view + 1));
@@ -37,8 +38,8 @@ export class SingleMode {
   // How many views there are now; 0 = not known yet.
   layoutChanged(count) {
     this.#count = count;
-    byId('single-count').textContent = `of ${count || '–'}`;
-    byId('single-view').max = Math.max(1, count);
+    byId('single-count').textContent = count ? `of 0–${count - 1}` : 'of –';
+    byId('single-view').max = Math.max(0, count - 1);
     if (count && this.stage.single !== null) this.#show(this.#wanted ?? Math.floor(count / 2));
   }
 
@@ -60,10 +61,10 @@ export class SingleMode {
 
   #show(view) {
     this.#view = Math.min(Math.max(0, this.#count - 1), Math.max(0, Math.round(view)));
-    byId('single-back').disabled = this.#view === 0;
-    byId('single-on').disabled = this.#view >= this.#count - 1;
+    allow(byId('single-back'), this.#view === 0 ? 'This is the first view.' : '');
+    allow(byId('single-on'), this.#view >= this.#count - 1 ? 'This is the last view.' : '');
     if (document.activeElement !== byId('single-view')) {
-      byId('single-view').value = this.#view + 1;
+      byId('single-view').value = this.#view;
     }
     if (this.stage.single === null) return;
     this.stage.single = this.#view;

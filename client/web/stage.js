@@ -5,6 +5,9 @@ import {watchDeviceSize} from './device_size.js';
 
 // Half a pixel inside a tile, smoothing does not reach into its neighbours.
 const kTileEdge_px = 0.5;
+// Around the picture, of the canvas's shorter side; small windows have no room for it.
+const kMarginShare = 0.025;
+const small = matchMedia('(max-width: 760px), (max-height: 500px)');
 
 // Top left corner of a view's tile in the atlas, px. What remains beside the tiles is padding at
 // the right and at the top.
@@ -96,7 +99,7 @@ export class Stage {
   }
 
   // The largest rectangle of an aspect that fits the canvas with a margin, in the middle.
-  frame(aspect, marginShare = 0.025) {
+  frame(aspect, marginShare = small.matches ? 0 : kMarginShare) {
     const margin = Math.round(Math.min(this.canvas.width, this.canvas.height) * marginShare);
     const width = this.canvas.width - 2 * margin;
     const height = this.canvas.height - 2 * margin;

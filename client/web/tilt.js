@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Looking around by tilting the device, where the browser says how it is held.
+import {allow} from './allowed.js';
 
 const kRange_deg = 40;  // from one end of the cone to the other
 
@@ -13,6 +14,8 @@ export class Tilt {
     button.addEventListener('click', () => this.#toggle());
     const event = window.DeviceOrientationEvent;
     if (!event || !window.isSecureContext) return;
+    // A frame of another page has to be allowed to know; where it is not, asking is an error.
+    if (document.featurePolicy?.allowsFeature('accelerometer') === false) return;
     // Where it is asked for by a touch alone, no event comes before.
     if (event.requestPermission && matchMedia('(any-pointer: coarse)').matches) {
       button.hidden = false;
@@ -35,8 +38,7 @@ export class Tilt {
     const event = window.DeviceOrientationEvent;
     const permission = await event.requestPermission?.().catch(() => 'denied');
     if (permission && permission !== 'granted') {
-      this.button.disabled = true;
-      this.button.title = 'The browser was told not to say how the device is held.';
+      allow(this.button, 'The browser was told not to say how the device is held.');
       return;
     }
     this.#neutral_deg = null;

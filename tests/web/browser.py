@@ -19,9 +19,10 @@ FLAGS = ("--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-
 
 
 class Browser:
-    """One page. native_scale: of the screen, where it is another than resize() pretends."""
+    """One page. native_scale: of the screen, where it is another than resize() pretends. flags:
+    further ones of Chromium."""
 
-    def __init__(self, width=1280, height=800, native_scale=1):
+    def __init__(self, width=1280, height=800, native_scale=1, flags=()):
         self.profile = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
         to_browser, self.commands = os.pipe()
         self.events, from_browser = os.pipe()
@@ -30,7 +31,7 @@ class Browser:
         self.process = subprocess.Popen(
             ["bash", "-c", script, "bash", CHROMIUM, *FLAGS, f"--user-data-dir={self.profile.name}",
              f"--window-size={width},{height}",
-             f"--force-device-scale-factor={native_scale}"],
+             f"--force-device-scale-factor={native_scale}", *flags],
             pass_fds=(to_browser, from_browser), stderr=subprocess.DEVNULL)
         os.close(to_browser)
         os.close(from_browser)
@@ -38,11 +39,13 @@ class Browser:
         self.last_id = 0
         self.session = None
         self.messages = []  # what the page wrote on its console, and exceptions
+        self.errors = []    # what the browser wrote there: failed requests, broken policies
         target = self.call("Target.createTarget", url="about:blank")["targetId"]
         attached = self.call("Target.attachToTarget", targetId=target, flatten=True)
         self.session = attached["sessionId"]
         self.call("Page.enable")
         self.call("Runtime.enable")
+        self.call("Log.enable")
         self.resize(width, height)
 
     def close(self):
@@ -87,6 +90,10 @@ class Browser:
                 return message["result"]
             if message.get("method") == "Runtime.exceptionThrown":
                 self.messages.append(message["params"]["exceptionDetails"])
+            if message.get("method") == "Log.entryAdded":
+                entry = message["params"]["entry"]
+                if entry["level"] == "error":
+                    self.errors.append((entry["text"], entry.get("url")))
             if message.get("method") == "Runtime.consoleAPICalled":
                 self.messages.append([arg.get("value") for arg in message["params"]["args"]])
 
