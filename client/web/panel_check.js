@@ -11,8 +11,7 @@ const sizeText = ({width, height}) => `${width} × ${height}`;
 export function checkPanel({calibration, layout, canvas_px, isFullScreen, scale, side_max_px}) {
   const wrong = (text) => ({ok: false, text});
   if (!calibration) {
-    return wrong('Drop the panel’s visual.json here, or choose it: it lies on the device’s own ' +
-                 'USB storage, in LKG_calibration.');
+    return wrong('The panel’s calibration is missing: drop or choose its visual.json.');
   }
   const panel_px = calibration.screen_px;
   if (layout && Math.max(layout.size.width, layout.size.height) > side_max_px) {

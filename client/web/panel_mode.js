@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Panel mode: the picture woven for a calibrated panel, px by px, and whether it gets there.
+import {allow} from './allowed.js';
+import {askPanels} from './bridge_panels.js';
 import {parseCalibration} from './calibration.js';
 import {checkPanel} from './panel_check.js';
 
 const kStored = 'viewloom.calibration';  // of the browser's storage: the file's text
 
 const byId = (id) => document.getElementById(id);
+const root = document.documentElement;
 
 export class PanelMode {
   #refusal = '';  // of a file
@@ -21,10 +24,23 @@ export class PanelMode {
     this.onChange = onChange;
     this.calibration = null;
     byId('calibration').addEventListener('change', ({target}) => this.#read(target.files[0]));
-    document.addEventListener('dragover', (event) => event.preventDefault());
+    document.addEventListener('dragover', (event) => {
+      event.preventDefault();
+      root.dataset.drag = 'over';
+    });
+    document.addEventListener('dragleave', () => { delete root.dataset.drag; });
     document.addEventListener('drop', (event) => {
       event.preventDefault();
+      delete root.dataset.drag;
       this.#read(event.dataTransfer.files[0]);
+    });
+    byId('ask-bridge').addEventListener('click', () => this.#askBridge());
+    byId('bridge-panel').addEventListener('change', ({target}) => {
+      this.#take(target.value, target.selectedOptions[0].text);
+      byId('drop').hidden = true;
+    });
+    byId('other-panel').addEventListener('click', () => {
+      byId('drop').hidden = !byId('drop').hidden;
     });
     document.addEventListener('fullscreenchange', () => this.#check());
     this.#restore();
@@ -72,12 +88,36 @@ export class PanelMode {
     } catch {
       // no storage, or what is in it is of no use: the file is asked for
     }
+    byId('drop').hidden = this.calibration !== null;
   }
 
   async #read(file) {
     if (!file) return;
     try {
-      const text = await file.text();
+      this.#take(await file.text(), file.name);
+    } catch {
+      this.#refuse(`${file.name}: cannot be read; copy it to this machine first`);
+    }
+  }
+
+  // The panels that Bridge knows; the first is taken, and the others can be.
+  async #askBridge() {
+    allow(byId('ask-bridge'), 'Bridge is being asked.');
+    try {
+      const panels = await askPanels();
+      byId('bridge-panel').replaceChildren(
+          ...panels.map(({name, calibration}) => new Option(name, calibration)));
+      byId('bridge-panel').hidden = panels.length === 1;
+      this.#take(panels[0].calibration, panels[0].name);
+    } catch (error) {
+      this.#refuse(error.message);
+    }
+    allow(byId('ask-bridge'), '');
+  }
+
+  // text: of a visual.json; name: where it comes from
+  #take(text, name) {
+    try {
       this.calibration = parseCalibration(text);
       this.#refusal = '';
       try {
@@ -85,9 +125,17 @@ export class PanelMode {
       } catch {
         // no storage: the file is asked for again after a reload
       }
+      byId('drop').hidden = byId('bridge-panel').hidden;
     } catch (error) {
-      this.#refusal = `${file.name}: ${error.message}`;
+      this.#refuse(`${name}: ${error.message}`);
+      return;
     }
+    this.#check();
+    this.onChange();
+  }
+
+  #refuse(sentence) {
+    this.#refusal = sentence;
     this.#check();
     this.onChange();
   }

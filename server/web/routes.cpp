@@ -22,10 +22,12 @@
 namespace viewloom {
 namespace {
 
-// Everything comes from the server itself; pictures are made from bytes the page received.
+// Everything comes from the server itself; pictures are made from bytes the page received. The one
+// exception: panel mode may ask Looking Glass Bridge on the viewer's own machine for a calibration
+// (client/web/bridge_panels.js).
 constexpr const char* kContentSecurityPolicy =
     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; "
-    "connect-src 'self'; worker-src 'self'; base-uri 'none'; "
+    "connect-src 'self' http://localhost:33334; worker-src 'self'; base-uri 'none'; "
     "form-action 'none'; frame-ancestors ";
 
 // Pages of the allowed origins may show this one in a frame.
