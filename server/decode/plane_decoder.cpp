@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "decode/h264_plane.h"
 #include "decode/predicted_plane.h"
 #include "frame/limits.h"
 #include "frame/plane_encoding.h"
@@ -91,6 +92,8 @@ absl::StatusOr<SharedBytes> PlaneDecoder::decode(const PlaneFormat& plane, Share
   BytePool::Buffer packed = pool_.takeUncleared(decodedBytes(plane));
   if (plane.encoding == PlaneEncoding::kJpeg) {
     VIEWLOOM_RETURN_IF_ERROR(jpeg_.decode(*wire, plane.size_px, *packed));
+  } else if (plane.encoding == PlaneEncoding::kH264) {
+    VIEWLOOM_RETURN_IF_ERROR(decodeH264Plane(*wire, plane.size_px, *packed));
   } else {
     packPlane(*wire, plane, *packed);
   }

@@ -26,6 +26,7 @@ constexpr EnumRow<v1::PlaneEncoding, PlaneEncoding> kEncodings[] = {
     {v1::PLANE_ENCODING_RGB8, PlaneEncoding::kRgb8},
     {v1::PLANE_ENCODING_RGBA16F, PlaneEncoding::kRgba16f},
     {v1::PLANE_ENCODING_JPEG, PlaneEncoding::kJpeg},
+    {v1::PLANE_ENCODING_H264, PlaneEncoding::kH264},
     {v1::PLANE_ENCODING_DEPTH_F32, PlaneEncoding::kDepthF32},
     {v1::PLANE_ENCODING_DEPTH_F16, PlaneEncoding::kDepthF16},
     {v1::PLANE_ENCODING_DEPTH_U16, PlaneEncoding::kDepthU16},

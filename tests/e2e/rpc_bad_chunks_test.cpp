@@ -9,6 +9,7 @@
 
 #include "e2e/bystander.h"
 #include "e2e/refusal.h"
+#include "unit/decode/h264_samples.h"
 #include "unit/decode/jpeg_samples.h"
 #include "unit/decode/zstd_samples.h"
 
@@ -208,6 +209,7 @@ std::vector<uint8_t> truncated(std::vector<uint8_t> bytes) {
 
 std::vector<BadBytes> badBytes() {
   const auto jpeg = v1::PLANE_ENCODING_JPEG;
+  const auto video = v1::PLANE_ENCODING_H264;
   const auto rgb = v1::PLANE_ENCODING_RGB8;
   const auto none = v1::PLANE_COMPRESSION_NONE;
   const auto zstd = v1::PLANE_COMPRESSION_ZSTD;
@@ -222,6 +224,13 @@ std::vector<BadBytes> badBytes() {
       {"of another size", jpeg, none, sampleJpeg({16, 8}, JpegSort::kBaseline), "16x8"},
       {"cut short", jpeg, none, truncated(sampleJpeg(kSize, JpegSort::kBaseline)), "JPEG"},
       {"no JPEG", jpeg, none, exact, "JPEG"},
+      {"video of another size", video, none, sampleH264({16, 32}), "16x32 px at row 0"},
+      {"video that refers to others", video, none, dependentH264(kSize), "key frame"},
+      {"video of limited range", video, none, x264LimitedRange(), "limited range"},
+      {"video cut short", video, none, truncated(sampleH264(kSize)), "send it whole"},
+      {"a bomb of video", video, none, sampleH264({1024, 1024}, {.qp = 51}),
+       "1024x1024 px at row 0"},
+      {"no video", video, none, exact, "0 rows together"},
       {"one byte more than declared", rgb, zstd, zstdFrame(longer, ZstdSize::kOpen), "768"},
       {"one byte less than declared", rgb, zstd, zstdFrame(shorter, ZstdSize::kOpen), "768"},
       {"a bomb that owns up", rgb, zstd, zstdFrame(bomb, ZstdSize::kStated), "768"},

@@ -13,6 +13,7 @@
 #include "decode/frame_intake.h"
 #include "frame/cube_map.h"
 #include "frame/limits.h"
+#include "frame/plane_encoding.h"
 #include "fuzz/script.h"
 #include "fuzz/targets.h"
 
@@ -46,7 +47,7 @@ constexpr std::array kOtherKinds = {PlaneKind::kMotion, PlaneKind::kNormal, Plan
 // The first is that of a script of zeros. Some do not fit their kind.
 PlaneEncoding encodingOf(PlaneKind kind, uint32_t choice) {
   using enum PlaneEncoding;
-  constexpr std::array kColors = {kRgba8, kRgb8, kRgba16f, kJpeg, kXyz8};
+  constexpr std::array kColors = {kRgba8, kRgb8, kRgba16f, kJpeg, kXyz8, kH264};
   constexpr std::array kDepths = {kDepthF32, kDepthF16, kDepthU16, kR8};
   constexpr std::array kVectors = {kXyz16f, kXyz8, kOct16, kDepthF16};
   constexpr std::array kAmounts = {kR8, kRgb8, kRgba8, kJpeg};
@@ -72,7 +73,7 @@ PlaneFormat takePlane(Script& script, PlaneKind kind, SizePx size_px) {
   if (choice & kPlaneStride) plane.stride_bytes = script.take(2);
   if (choice & kPlaneOwnSize) plane.size_px = {script.take(2), script.take(2)};
   const bool is_packed =
-      plane.compression != PlaneCompression::kNone || plane.encoding == PlaneEncoding::kJpeg;
+      plane.compression != PlaneCompression::kNone || isCodedPicture(plane.encoding);
   plane.wire_bytes = is_packed ? script.take(2) : uncompressedBytes(plane);
   if (choice & kPlaneOddBytes) plane.wire_bytes = script.take(4);
   const uint32_t attributes = script.take();

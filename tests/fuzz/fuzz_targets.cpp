@@ -36,6 +36,7 @@ constexpr std::array kTargets = {
     FuzzTarget{"settings", fuzzSettings, settingsSeeds},
     FuzzTarget{"tokens", fuzzTokens, tokensSeeds},
     FuzzTarget{"video", fuzzVideo, videoSeeds},
+    FuzzTarget{"video_plane", fuzzVideoPlane, videoPlaneSeeds},
     FuzzTarget{"viewer", fuzzViewer, viewerSeeds},
     FuzzTarget{"zstd", fuzzZstd, zstdSeeds},
 };

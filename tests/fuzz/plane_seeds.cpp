@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include "fuzz/seeds.h"
+#include "unit/decode/h264_samples.h"
 #include "unit/decode/jpeg_samples.h"
 #include "unit/decode/predicted_samples.h"
 #include "unit/decode/zstd_samples.h"
@@ -51,6 +52,13 @@ SeedBytes predictedSeeds() {
   const Bytes content = predictedBytes(samples, 20, 10);
   return {joined({19, 9}, zstdFrame(content, ZstdSize::kStated)),
           joined({19, 9}, zstdFrame(content, ZstdSize::kOpen))};
+}
+
+SeedBytes videoPlaneSeeds() {
+  return {joined({24, 8}, sampleH264({40, 24})),
+          joined({15, 19}, sampleH264({31, 35}, {.picture_rows = 18})),
+          joined({48, 48}, sampleH264({64, 64}, {.slice_count = 2})),
+          joined({16, 16}, x264Still())};
 }
 
 // Scripts of frame_target.cpp: number and sources less one; of each source its choice, width and

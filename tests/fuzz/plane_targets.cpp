@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/check.h"
+#include "decode/h264_plane.h"
 #include "decode/jpeg_plane.h"
 #include "decode/plane_decoder.h"
 #include "decode/zstd_plane.h"
@@ -36,6 +37,16 @@ bool fuzzZstd(FuzzBytes bytes) {
   VIEWLOOM_CHECK(out.size() <= expected);
   VIEWLOOM_CHECK(!inflated || out.size() == expected);
   return inflated;
+}
+
+bool fuzzVideoPlane(FuzzBytes bytes) {
+  Script script(bytes);
+  const SizePx size_px{script.take() + kH264SideMin_px, script.take() + kH264SideMin_px};
+  std::vector<uint8_t> out;
+  const bool decoded = decodeH264Plane(script.takeRest(), size_px, out).ok();
+  VIEWLOOM_CHECK(out.size() <= size_px.area() * 4);
+  VIEWLOOM_CHECK(!decoded || out.size() == size_px.area() * 4);
+  return decoded;
 }
 
 bool fuzzPredicted(FuzzBytes bytes) {

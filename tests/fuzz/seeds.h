@@ -34,6 +34,7 @@ class SeedWriter {
 SeedBytes jpegSeeds();
 SeedBytes zstdSeeds();
 SeedBytes predictedSeeds();
+SeedBytes videoPlaneSeeds();
 SeedBytes frameSeeds();
 SeedBytes videoSeeds();
 

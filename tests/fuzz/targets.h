@@ -16,6 +16,8 @@ bool fuzzJpeg(FuzzBytes bytes);
 bool fuzzZstd(FuzzBytes bytes);
 // Width and height, each less one; a predicted depth plane.
 bool fuzzPredicted(FuzzBytes bytes);
+// Width and height, each less 16; colour in H.264.
+bool fuzzVideoPlane(FuzzBytes bytes);
 // A script: a header, then chunks. Accepted frames are decoded, alone and by the intake's threads.
 bool fuzzFrame(FuzzBytes bytes);
 

@@ -40,7 +40,7 @@ LAYERS = {
     # Takes rights from the process; the kernel's interface and libseccomp only.
     "server/containment": (["base"], ["absl", "nlohmann", "seccomp"]),
     "server/tls": (["admission", "base", "certificates"], ["absl", "openssl"]),
-    "server/decode": (["base", "jpeg", "frame", "admission", SHADERS_SHARED],
+    "server/decode": (["base", "jpeg", "frame", "admission", "video", SHADERS_SHARED],
                       ["absl", "glm", "jpeg", "zstd"]),
     "server/picture": (["base", "frame", "calibration", "display", SHADERS_SHARED],
                        ["absl", "glm"]),

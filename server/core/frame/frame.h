@@ -21,6 +21,7 @@ enum class PlaneEncoding : uint8_t {
   kRgb8,
   kRgba16f,
   kJpeg,
+  kH264,
   kDepthF32,
   kDepthF16,
   kDepthU16,
@@ -108,7 +109,7 @@ struct FrameFormat {
 };
 
 // Decoded, packed planes, top row first.
-//   color    uint8_t[h][w][4] for kRgba8 (also from kRgb8 and kJpeg), or binary16[h][w][4]
+//   color    uint8_t[h][w][4] for kRgba8 (also from kRgb8, kJpeg, kH264), or binary16[h][w][4]
 //   depth    samples as declared
 //   surface  abi::SurfaceTexel[h][w] for a layer that mirrors; else null
 struct LayerPlanes {

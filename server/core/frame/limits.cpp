@@ -9,119 +9,12 @@
 #include "frame/cube_map.h"
 #include "frame/depth.h"
 #include "frame/plane_encoding.h"
+#include "frame/validate_plane.h"
 
 namespace viewloom {
 namespace {
 
 constexpr double kExposureMaxEv = 32;
-// A row may be padded up to the next page of this size.
-constexpr uint64_t kRowPaddingBytesMax = 65536;
-// More than any zstd encoder adds to bytes it cannot compress.
-constexpr uint64_t zstdBytesMax(uint64_t content_bytes) {
-  return content_bytes + content_bytes / 128 + 1024;
-}
-
-absl::Status overLimit(std::string_view field, std::string_view problem) {
-  return fieldError(absl::StatusCode::kResourceExhausted, field, problem);
-}
-
-std::string sizeText(SizePx size_px) {
-  return strCat(size_px.width, "x", size_px.height);
-}
-
-// Six square faces, one below the other: only the side of one is limited.
-absl::Status validateCubeSize(SizePx size_px, uint32_t side_px_max) {
-  if (size_px.width == 0 || size_px.height != uint64_t{kCubeFaceCount} * size_px.width) {
-    return invalidField(
-        "size", strCat("a plane of a cube map has ", sizeText(size_px), " px; accepted is N x ",
-                       kCubeFaceCount, " N: the faces, one below the other"));
-  }
-  if (size_px.width > side_px_max) {
-    return overLimit("size", strCat("a face of the cube map has ", size_px.width,
-                                    " px a side; accepted is up to ", side_px_max));
-  }
-  return absl::OkStatus();
-}
-
-absl::Status validateSize(SizePx size_px, uint32_t side_px_max) {
-  if (size_px.width == 0 || size_px.height == 0) {
-    return invalidField(
-        "size", strCat("the plane has ", sizeText(size_px), " px; accepted is at least 1x1"));
-  }
-  if (std::max(size_px.width, size_px.height) > side_px_max) {
-    return overLimit("size", strCat("the plane has ", sizeText(size_px), " px; accepted is up to ",
-                                    side_px_max, " px a side"));
-  }
-  return absl::OkStatus();
-}
-
-absl::Status validateStride(const PlaneFormat& plane) {
-  if (plane.stride_bytes == 0) return absl::OkStatus();
-  if (plane.encoding == PlaneEncoding::kJpeg) {
-    return invalidField("stride_bytes", strCat("the stride of a JPEG is ", plane.stride_bytes,
-                                               " bytes; accepted is 0"));
-  }
-  const uint64_t packed = uint64_t{plane.size_px.width} * wirePixelBytes(plane.encoding);
-  if (plane.stride_bytes < packed || plane.stride_bytes > packed + kRowPaddingBytesMax) {
-    return invalidField("stride_bytes", strCat("the stride is ", plane.stride_bytes,
-                                               " bytes; accepted is 0 (packed) or ", packed, "..",
-                                               packed + kRowPaddingBytesMax));
-  }
-  return absl::OkStatus();
-}
-
-// Prediction is between samples of 16 bits that lie side by side.
-absl::Status validateCompression(const PlaneFormat& plane) {
-  if (plane.compression != PlaneCompression::kPredictedZstd) return absl::OkStatus();
-  if (plane.encoding != PlaneEncoding::kDepthU16 && plane.encoding != PlaneEncoding::kDepthF16) {
-    return invalidField("compression",
-                        "PREDICTED_ZSTD is given for another encoding than DEPTH_U16 and "
-                        "DEPTH_F16; accepted here is NONE or ZSTD");
-  }
-  if (plane.stride_bytes == 0) return absl::OkStatus();
-  return invalidField("stride_bytes", strCat("the stride is ", plane.stride_bytes,
-                                             " bytes; accepted with PREDICTED_ZSTD is 0"));
-}
-
-absl::Status validateWireBytes(const PlaneFormat& plane) {
-  const uint64_t got = plane.wire_bytes;
-  const uint64_t content = uncompressedBytes(plane);
-  const bool jpeg = plane.encoding == PlaneEncoding::kJpeg;
-  if (plane.compression == PlaneCompression::kNone && !jpeg && got != content) {
-    return invalidField("bytes_count",
-                        strCat("the plane declares ", got, " bytes; accepted is ", content,
-                               ", which ", sizeText(plane.size_px), " px take in this encoding"));
-  }
-  uint64_t most = jpeg ? jpegBytesMax(plane.size_px.area()) : content;
-  if (plane.compression != PlaneCompression::kNone) most = zstdBytesMax(most);
-  most = std::min(most, kPlaneWireBytesMax);
-  if (got == 0 || got > most) {
-    return invalidField("bytes_count",
-                        strCat("the plane declares ", got, " bytes; accepted is 1..", most));
-  }
-  return absl::OkStatus();
-}
-
-absl::Status validatePlane(const PlaneFormat& plane, PlaneKind kind, bool is_cube_map,
-                           const FrameLimits& limits) {
-  if (plane.kind != kind || !isEncodingOf(kind, plane.encoding)) {
-    return invalidField(
-        "encoding",
-        strCat("the encoding does not fit the kind of the plane; accepted is ", encodingsOf(kind)));
-  }
-  VIEWLOOM_RETURN_IF_ERROR(is_cube_map ? validateCubeSize(plane.size_px, limits.plane_side_px_max)
-                                       : validateSize(plane.size_px, limits.plane_side_px_max));
-  VIEWLOOM_RETURN_IF_ERROR(validateStride(plane));
-  VIEWLOOM_RETURN_IF_ERROR(validateCompression(plane));
-  VIEWLOOM_RETURN_IF_ERROR(validateWireBytes(plane));
-  if (kind == PlaneKind::kColor) {
-    if (!is_cube_map || plane.alpha == AlphaMode::kOpaque) return absl::OkStatus();
-    return fieldError(absl::StatusCode::kUnimplemented, "alpha",
-                      "transparent colour of cube maps is not served yet; accepted is OPAQUE");
-  }
-  if (kind != PlaneKind::kDepth) return absl::OkStatus();
-  return validateDepthFormat(plane.depth, plane.encoding, "depth");
-}
 
 std::string planePath(size_t layer, const LayerFormat& format, PlaneKind kind) {
   const bool second = (kind == PlaneKind::kColor) == format.depth_first;
@@ -157,8 +50,8 @@ absl::Status validateOthers(const LayerFormat& layer, bool is_cube_map, const Fr
   for (size_t i = 0; i < layer.others.size(); ++i) {
     const PlaneFormat& plane = layer.others[i];
     const std::string path = strCat("planes[", i + 2, "]");
-    VIEWLOOM_RETURN_IF_ERROR(
-        withFieldPrefix(validatePlane(plane, plane.kind, is_cube_map, limits), path));
+    VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(
+        validatePlane(plane, plane.kind, is_cube_map, limits.plane_side_px_max), path));
     if (plane.size_px != layer.depth.size_px) {
       return invalidField(path + ".size", strCat("the plane has ", sizeText(plane.size_px),
                                                  " px; accepted is the size of the depth plane, ",
@@ -206,8 +99,9 @@ absl::Status validateSource(const SourceFormat& source, const FrameLimits& limit
     const LayerFormat& format = source.layers[layer];
     for (const PlaneKind kind : {PlaneKind::kColor, PlaneKind::kDepth}) {
       const PlaneFormat& plane = kind == PlaneKind::kColor ? format.color : format.depth;
-      VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(
-          validatePlane(plane, kind, source.is_cube_map, limits), planePath(layer, format, kind)));
+      VIEWLOOM_RETURN_IF_ERROR(
+          withFieldPrefix(validatePlane(plane, kind, source.is_cube_map, limits.plane_side_px_max),
+                          planePath(layer, format, kind)));
     }
     VIEWLOOM_RETURN_IF_ERROR(validateAgreement(source, layer));
     VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(validateOthers(format, source.is_cube_map, limits),
@@ -240,6 +134,19 @@ uint64_t jpegBytesMax(uint64_t area_px) {
   return area_px * 3 * 27 * 2 / 8 + (1 << 20);
 }
 
+uint64_t h264BytesMax(SizePx size_px) {
+  // A macroblock takes up to 3200 bits (A.3.1), and bytes that keep start codes apart add up to a
+  // half; 64 KiB for parameter sets and supplements.
+  constexpr uint64_t kMacroblock_px = 16;
+  constexpr uint64_t kMacroblockBytes = 3200 / 8 * 3 / 2;
+  const auto macroblocks = [](uint64_t side_px) {
+    return (side_px + kMacroblock_px - 1) / kMacroblock_px;
+  };
+  // Each picture has whole macroblocks; a plane in pictures of the least height has twice as many.
+  return 2 * macroblocks(size_px.width) * macroblocks(size_px.height) * kMacroblockBytes +
+         (1 << 16);
+}
+
 uint64_t wireRowBytes(const PlaneFormat& plane) {
   if (plane.stride_bytes != 0) return plane.stride_bytes;
   return uint64_t{plane.size_px.width} * wirePixelBytes(plane.encoding);
@@ -250,9 +157,7 @@ uint64_t uncompressedBytes(const PlaneFormat& plane) {
 }
 
 uint64_t decodedBytes(const PlaneFormat& plane) {
-  const bool becomes_rgba8 =
-      plane.encoding == PlaneEncoding::kRgb8 || plane.encoding == PlaneEncoding::kJpeg;
-  const uint64_t pixel_bytes = becomes_rgba8 ? 4 : wirePixelBytes(plane.encoding);
+  const uint64_t pixel_bytes = becomesRgba8(plane.encoding) ? 4 : wirePixelBytes(plane.encoding);
   return plane.size_px.area() * pixel_bytes;
 }
 
@@ -278,11 +183,11 @@ absl::Status validateFrame(const FrameFormat& format, const FrameLimits& limits)
     }
   }
   if (held_bytes > limits.frame_bytes_max) {
-    return overLimit(
-        "header", strCat("the planes of the frame take ", held_bytes, " bytes; accepted is up to ",
-                         limits.frame_bytes_max,
-                         ". Send smaller planes or fewer layers, or raise the server's "
-                         "limits.frame_bytes_max"));
+    return fieldError(absl::StatusCode::kResourceExhausted, "header",
+                      strCat("the planes of the frame take ", held_bytes,
+                             " bytes; accepted is up to ", limits.frame_bytes_max,
+                             ". Send smaller planes or fewer layers, or raise the server's "
+                             "limits.frame_bytes_max"));
   }
   return absl::OkStatus();
 }

@@ -14,6 +14,7 @@ bool isEncodingOf(PlaneKind kind, PlaneEncoding encoding) {
       return kind == PlaneKind::kColor || kind == PlaneKind::kSpecular;
     case PlaneEncoding::kRgba16f:
     case PlaneEncoding::kJpeg:
+    case PlaneEncoding::kH264:
       return kind == PlaneKind::kColor;
     case PlaneEncoding::kDepthF32:
     case PlaneEncoding::kDepthF16:
@@ -33,7 +34,7 @@ bool isEncodingOf(PlaneKind kind, PlaneEncoding encoding) {
 const char* encodingsOf(PlaneKind kind) {
   switch (kind) {
     case PlaneKind::kColor:
-      return "RGBA8, RGB8, RGBA16F, JPEG";
+      return "RGBA8, RGB8, RGBA16F, JPEG, H264";
     case PlaneKind::kDepth:
       return "DEPTH_F32, DEPTH_F16, DEPTH_U16";
     case PlaneKind::kMotion:
@@ -46,6 +47,28 @@ const char* encodingsOf(PlaneKind kind) {
       return "RGB8, RGBA8, R8";
   }
   return "";
+}
+
+bool isCodedPicture(PlaneEncoding encoding) {
+  return encoding == PlaneEncoding::kJpeg || encoding == PlaneEncoding::kH264;
+}
+
+uint64_t codedBytesMax(const PlaneFormat& plane) {
+  return plane.encoding == PlaneEncoding::kH264 ? h264BytesMax(plane.size_px)
+                                                : jpegBytesMax(plane.size_px.area());
+}
+
+bool becomesRgba8(PlaneEncoding encoding) {
+  return encoding == PlaneEncoding::kRgb8 || isCodedPicture(encoding);
+}
+
+uint64_t codecBytes(const PlaneFormat& plane) {
+  if (plane.encoding != PlaneEncoding::kH264) return 0;
+  // Measured: tests/performance.md, "Colour as video".
+  constexpr uint64_t kPixelBytes = 18;
+  constexpr uint64_t kDecoderBytes = uint64_t{4} << 20;
+  const uint64_t picture_px = std::min(plane.size_px.area(), kH264PictureMax_px);
+  return kDecoderBytes + kPixelBytes * picture_px + 2 * plane.wire_bytes;
 }
 
 uint32_t wirePixelBytes(PlaneEncoding encoding) {
@@ -67,6 +90,7 @@ uint32_t wirePixelBytes(PlaneEncoding encoding) {
     case PlaneEncoding::kR8:
       return 1;
     case PlaneEncoding::kJpeg:
+    case PlaneEncoding::kH264:
       return 0;
   }
   return 0;
@@ -81,8 +105,7 @@ uint64_t inflatedBytesMax(const PlaneFormat& plane) {
 }
 
 bool isHeldAsSent(const PlaneFormat& plane) {
-  return plane.encoding != PlaneEncoding::kRgb8 && plane.encoding != PlaneEncoding::kJpeg &&
-         plane.compression != PlaneCompression::kPredictedZstd &&
+  return !becomesRgba8(plane.encoding) && plane.compression != PlaneCompression::kPredictedZstd &&
          uncompressedBytes(plane) == decodedBytes(plane);
 }
 

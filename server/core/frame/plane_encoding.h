@@ -11,7 +11,15 @@ namespace viewloom {
 bool isEncodingOf(PlaneKind kind, PlaneEncoding encoding);
 // All encodings of a kind, named as in proto: "R8, RGB8".
 const char* encodingsOf(PlaneKind kind);
-// Bytes of one pixel as sent; 0 for JPEG.
+// Whether a plane is a picture that a codec has made of any number of bytes: JPEG, H264.
+bool isCodedPicture(PlaneEncoding encoding);
+// Most bytes of such a plane, whatever it shows.
+uint64_t codedBytesMax(const PlaneFormat& plane);
+// Whether a Frame holds the plane as RGBA8.
+bool becomesRgba8(PlaneEncoding encoding);
+// Memory that the decoder of such a plane takes, beside its bytes and the decoded plane.
+uint64_t codecBytes(const PlaneFormat& plane);
+// Bytes of one pixel as sent; 0 for coded pictures.
 uint32_t wirePixelBytes(PlaneEncoding encoding);
 // Bytes of the plane between zstd and the next decoder: its uncompressed bytes, or for JPEG the
 // most that is accepted. 0 without zstd.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "frame/plane_encoding.h"
+
 namespace viewloom {
 namespace {
 
@@ -18,8 +20,7 @@ auto contentOf(const DepthFormat& format) {
 }
 
 PlaneEncoding decodedEncoding(PlaneEncoding encoding) {
-  const bool becomes_rgba8 = encoding == PlaneEncoding::kRgb8 || encoding == PlaneEncoding::kJpeg;
-  return becomes_rgba8 ? PlaneEncoding::kRgba8 : encoding;
+  return becomesRgba8(encoding) ? PlaneEncoding::kRgba8 : encoding;
 }
 
 auto contentOf(const PlaneFormat& format) {

@@ -15,17 +15,31 @@ std::span<const uint8_t> withoutTrailingZeros(std::span<const uint8_t> unit) {
   return unit;
 }
 
+// The bytes from the first start code on.
+std::span<const uint8_t> fromStartCode(std::span<const uint8_t> bytes) {
+  return {std::search(bytes.begin(), bytes.end(), kStartCode.begin(), kStartCode.end()),
+          bytes.end()};
+}
+
 }  // namespace
+
+NalReader::NalReader(std::span<const uint8_t> stream) : rest_(fromStartCode(stream)) {}
+
+std::optional<NalUnit> NalReader::next() {
+  while (!rest_.empty()) {
+    const std::span<const uint8_t> begun = rest_.subspan(kStartCode.size());
+    rest_ = fromStartCode(begun);
+    const std::span<const uint8_t> unit =
+        withoutTrailingZeros(begun.first(begun.size() - rest_.size()));
+    if (!unit.empty()) return NalUnit{unit};
+  }
+  return std::nullopt;
+}
 
 std::vector<NalUnit> nalUnits(std::span<const uint8_t> stream) {
   std::vector<NalUnit> units;
-  auto code = std::search(stream.begin(), stream.end(), kStartCode.begin(), kStartCode.end());
-  while (code != stream.end()) {
-    const auto begin = code + kStartCode.size();
-    code = std::search(begin, stream.end(), kStartCode.begin(), kStartCode.end());
-    const std::span<const uint8_t> unit = withoutTrailingZeros({begin, code});
-    if (!unit.empty()) units.push_back({unit});
-  }
+  NalReader reader(stream);
+  while (const std::optional<NalUnit> unit = reader.next()) units.push_back(*unit);
   return units;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -25,7 +26,19 @@ struct NalUnit {
   NalType type() const { return NalType(bytes.front() & 0x1F); }
 };
 
-// All units of any bytes. Bytes before the first start code, and empty units, are left out.
+// Units of any bytes, one after the other. Bytes before the first start code, and empty units, are
+// left out. Borrows the bytes. Thread-safety: none.
+class NalReader {
+ public:
+  explicit NalReader(std::span<const uint8_t> stream);
+  // Nothing after the last unit.
+  std::optional<NalUnit> next();
+
+ private:
+  std::span<const uint8_t> rest_;  // from a start code on; empty at the end
+};
+
+// All units of any bytes. They may take four times as much memory as the bytes.
 std::vector<NalUnit> nalUnits(std::span<const uint8_t> stream);
 
 }  // namespace viewloom

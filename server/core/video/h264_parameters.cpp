@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/str_cat.h"
 #include "video/annex_b.h"
+#include "video/unit_bits.h"
 
 namespace viewloom {
 namespace {
@@ -15,45 +16,6 @@ namespace {
 constexpr uint32_t kMacroblock_px = 16;
 constexpr uint8_t kHighProfile = 100;
 constexpr uint32_t kExtendedAspect = 255;  // Extended_SAR of table E-1
-
-// Bits of a unit without its emulation prevention bytes (7.3.1). Past the end all bits are 0, and
-// isWhole() says so.
-class UnitBits {
- public:
-  explicit UnitBits(std::span<const uint8_t> unit) {
-    for (size_t i = 0; i < unit.size(); ++i) {
-      const bool prevents = i >= 2 && unit[i] == 3 && unit[i - 1] == 0 && unit[i - 2] == 0;
-      if (!prevents) bytes_.push_back(unit[i]);
-    }
-  }
-
-  uint32_t bits(uint32_t count) {
-    uint32_t value = 0;
-    for (uint32_t i = 0; i < count; ++i, ++at_) {
-      const size_t byte = at_ / 8;
-      const uint32_t bit = byte < bytes_.size() ? bytes_[byte] >> (7 - at_ % 8) & 1 : 0;
-      value = value << 1 | bit;
-    }
-    return value;
-  }
-  bool flag() { return bits(1) != 0; }
-  // ue(v) of 9.1. More than 31 zeros are no number.
-  uint32_t number() {
-    uint32_t zeros = 0;
-    while (!flag()) {
-      if (++zeros < 32 && isWhole()) continue;
-      is_broken_ = true;
-      return 0;
-    }
-    return (uint32_t{1} << zeros) - 1 + bits(zeros);
-  }
-  bool isWhole() const { return !is_broken_ && at_ <= 8 * bytes_.size(); }
-
- private:
-  std::vector<uint8_t> bytes_;
-  size_t at_ = 0;
-  bool is_broken_ = false;
-};
 
 absl::Status refuse(std::string_view problem) {
   return absl::InvalidArgumentError(strCat("H.264 parameter set: ", problem));
@@ -179,8 +141,8 @@ absl::StatusOr<H264Parameters> parseH264Parameters(std::span<const uint8_t> unit
   }
   bits.number();  // log2_max_frame_num_minus4
   VIEWLOOM_RETURN_IF_ERROR(readPictureOrder(bits));
-  bits.number();  // max_num_ref_frames
-  bits.flag();    // gaps_in_frame_num_value_allowed_flag
+  parameters.reference_count = bits.number();
+  bits.flag();  // gaps_in_frame_num_value_allowed_flag
   VIEWLOOM_RETURN_IF_ERROR(readSize(bits, parameters));
   if (bits.flag()) readUsability(bits, parameters);
   if (!bits.isWhole()) return refuse("it ends too early");

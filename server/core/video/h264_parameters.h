@@ -24,10 +24,11 @@ struct H264Color {
 
 // Facts from a sequence parameter set (7.3.2.1.1 and annex E).
 struct H264Parameters {
-  uint8_t profile = 0;      // profile_idc: 66 baseline, 77 main, 100 high
-  uint8_t constraints = 0;  // the byte of constraint flags
-  uint8_t level = 0;        // ten times the level
-  SizePx size_px;           // cropped
+  uint8_t profile = 0;           // profile_idc: 66 baseline, 77 main, 100 high
+  uint8_t constraints = 0;       // the byte of constraint flags
+  uint8_t level = 0;             // ten times the level
+  SizePx size_px;                // cropped
+  uint32_t reference_count = 0;  // most pictures that one may refer to (max_num_ref_frames)
   H264Color color;
   std::optional<uint32_t> reorder_count;  // max_num_reorder_frames; empty = not said
 };

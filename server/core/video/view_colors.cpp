@@ -50,10 +50,10 @@ void writePixel(uint8_t* rgb, int luma, int cb, int cr) {
   rgb[2] = clampedCode(luma + ((116130 * cb + kHalf) >> 16));
 }
 
-}  // namespace
-
-void writeViewColors(const VideoPicture& picture, const PictureCell& cell, uint8_t* rgb,
-                     size_t stride_bytes) {
+// `kPixelBytes`: 3, or 4 with 255 behind each colour.
+template <size_t kPixelBytes>
+void writeColors(const VideoPicture& picture, const PictureCell& cell, uint8_t* pixels,
+                 size_t stride_bytes) {
   const SizePx view_px = cell.view_px;
   VIEWLOOM_CHECK(cell.x_px % 2 == 0 && cell.y_px % 2 == 0 && view_px.area() > 0);
   VIEWLOOM_CHECK(cell.x_px + view_px.width <= picture.size_px.width);
@@ -67,11 +67,24 @@ void writeViewColors(const VideoPicture& picture, const PictureCell& cell, uint8
     cr.read(picture.cr + chroma_origin, picture.chroma_stride_bytes, chroma_px.height, y);
     const uint8_t* const luma =
         picture.y + size_t{cell.y_px + y} * picture.y_stride_bytes + cell.x_px;
-    uint8_t* const row = rgb + y * stride_bytes;
+    uint8_t* const row = pixels + y * stride_bytes;
     for (uint32_t x = 0; x < view_px.width; ++x) {
-      writePixel(row + size_t{3} * x, luma[x], cb.at(x), cr.at(x));
+      writePixel(row + kPixelBytes * x, luma[x], cb.at(x), cr.at(x));
+      if constexpr (kPixelBytes == 4) row[kPixelBytes * x + 3] = 255;
     }
   }
+}
+
+}  // namespace
+
+void writeViewColors(const VideoPicture& picture, const PictureCell& cell, uint8_t* rgb,
+                     size_t stride_bytes) {
+  writeColors<3>(picture, cell, rgb, stride_bytes);
+}
+
+void writeOpaqueColors(const VideoPicture& picture, const PictureCell& cell, uint8_t* rgba,
+                       size_t stride_bytes) {
+  writeColors<4>(picture, cell, rgba, stride_bytes);
 }
 
 }  // namespace viewloom

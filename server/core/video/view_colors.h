@@ -21,5 +21,8 @@ struct PictureCell {
 // it, but not across the edges of the view: neighbours are other views.
 void writeViewColors(const VideoPicture& picture, const PictureCell& cell, uint8_t* rgb,
                      size_t stride_bytes);
+// The same as uint8_t[view height][x][4] R, G, B, 255.
+void writeOpaqueColors(const VideoPicture& picture, const PictureCell& cell, uint8_t* rgba,
+                       size_t stride_bytes);
 
 }  // namespace viewloom

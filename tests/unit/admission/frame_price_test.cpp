@@ -60,6 +60,24 @@ TEST(FramePrice, countsWhatZstdHoldsBetweenWireAndResult) {
   EXPECT_EQ(price.decoded_bytes, 6 * kArea_px);
 }
 
+// A decoder has one picture of a plane at a time.
+TEST(FramePrice, countsWhatTheDecoderOfVideoTakes) {
+  const auto video = [](SizePx size_px) {
+    return PlaneFormat{.kind = PlaneKind::kColor,
+                       .encoding = PlaneEncoding::kH264,
+                       .size_px = size_px,
+                       .wire_bytes = 1000};
+  };
+  const auto decoderBytes = [&](SizePx size_px) {
+    const FramePrice price = framePrice(frameOf({.color = video(size_px), .depth = kDepth}));
+    EXPECT_EQ(price.decoded_bytes, 4 * size_px.area() + 4 * kArea_px);
+    return price.receiving_bytes - price.decoded_bytes;
+  };
+  EXPECT_GT(decoderBytes({16, 16}), uint64_t{4} << 20);
+  EXPECT_GT(decoderBytes({1920, 1080}), uint64_t{12} * 1920 * 1080);
+  EXPECT_EQ(decoderBytes({8192, 8192}), decoderBytes({8192, 1152}));
+}
+
 TEST(FramePrice, countsTheSurfaceOfLayersThatMirror) {
   LayerFormat layer{.color = kColor, .depth = kDepth};
   layer.others = {plane(PlaneKind::kSpecular, PlaneEncoding::kR8)};

@@ -73,5 +73,17 @@ TEST(ViewColors, interpolatesChromaBetweenItsSamples) {
   for (size_t x = 0; x < 4; ++x) EXPECT_NEAR(rgb[3 * x], reds[x], 1);
 }
 
+TEST(ViewColors, writesThemOpaqueAsWell) {
+  const SamplePicture picture = SamplePicture::texture({32, 18}, 0);
+  std::vector<uint8_t> rgb(31 * 17 * 3);
+  std::vector<uint8_t> rgba(31 * 17 * 4);
+  writeViewColors(picture.video(), {.view_px = {31, 17}}, rgb.data(), 31 * 3);
+  writeOpaqueColors(picture.video(), {.view_px = {31, 17}}, rgba.data(), 31 * 4);
+  for (size_t i = 0; i < 31 * 17; ++i) {
+    for (size_t c = 0; c < 3; ++c) ASSERT_EQ(rgba[4 * i + c], rgb[3 * i + c]);
+    ASSERT_EQ(rgba[4 * i + 3], 255);
+  }
+}
+
 }  // namespace
 }  // namespace viewloom::test::view_colors_test
