@@ -17,8 +17,6 @@ namespace {
 constexpr uint64_t kRaysCopies = 4;
 // From this quality on, JPEG takes about twice as many bytes.
 constexpr uint32_t kFineQuality = 91;
-// Below this quantisation, video takes more than JPEG at its finest.
-constexpr uint32_t kFineVideoQp = 12;
 constexpr uint32_t kColorPixelBytes = 4;
 constexpr uint32_t kDepthPixelBytes = 4;
 constexpr uint32_t kCompactDepthPixelBytes = 1;  // at most half of that, and odd sides
@@ -30,7 +28,6 @@ uint64_t encodedColorBytes(const EncodingSpec& encoding, uint64_t area_px) {
     case BandEncoding::kJpegPlanes:
       return encoding.jpeg_quality < kFineQuality ? area_px / 2 : area_px;
     case BandEncoding::kH264:
-      if (encoding.video_qp < kFineVideoQp) break;
       return encoding.video_qp < matchedVideoQp(kFineQuality) ? area_px : area_px / 2;
     case BandEncoding::kZstd:
     case BandEncoding::kRaw:

@@ -27,9 +27,9 @@ absl::Status checkFormat(const VideoFormat& format) {
                                              kVideoSideMin_px, " px, and up to ", kVideoAreaMax_px,
                                              " px together"));
   }
-  if (format.qp < 1 || format.qp > kQpMax) {
-    return absl::InvalidArgumentError(
-        strCat("quantisation ", format.qp, "; accepted is 1 to ", kQpMax));
+  if (format.qp < kVideoQpMin || format.qp > kQpMax) {
+    return absl::InvalidArgumentError(strCat("quantisation ", format.qp, "; accepted is ",
+                                             kVideoQpMin, " to ", kQpMax));
   }
   if (format.thread_count < 1 || format.thread_count > kThreadsMax) {
     return absl::InvalidArgumentError(

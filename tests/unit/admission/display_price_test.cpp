@@ -46,8 +46,8 @@ TEST(DisplayPrice, countsPicturesOfAVideoAndItsEncoder) {
   EXPECT_EQ(video.making_bytes,
             4 * area_px + area_px * 3 / 2 + 10 * area_px / 16 + (uint64_t{3} << 20));
   EXPECT_EQ(video.encoded_bytes, area_px / 2);
-  const EncodingSpec fine = {.color = BandEncoding::kH264, .video_qp = 1};
-  EXPECT_EQ(displayPrice(quiltOf(1024), fine).encoded_bytes, 4 * area_px);
+  const EncodingSpec fine = {.color = BandEncoding::kH264, .video_qp = 20};
+  EXPECT_EQ(displayPrice(quiltOf(1024), fine).encoded_bytes, area_px);
 }
 
 TEST(DisplayPrice, growsWithTheSamplesOfALens) {

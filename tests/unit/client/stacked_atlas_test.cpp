@@ -75,7 +75,7 @@ Atlas codedAtlas() {
               .header = {},
               .end = {},
               .bands = {}};
-  auto encoder = OpenH264Encoder::make({.size_px = kPicture_px, .qp = 16});
+  auto encoder = OpenH264Encoder::make({.size_px = kPicture_px, .qp = 20});
   EXPECT_TRUE(encoder.ok()) << encoder.status();
   const std::vector<uint8_t> chroma(kPicture_px.area() / 4, 128);
   for (uint32_t picture = 0; picture < kPictures; ++picture) {

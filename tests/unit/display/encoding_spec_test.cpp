@@ -15,7 +15,7 @@ TEST(Encoding, matchesTheQuantisationOfVideoToTheQualityOfJpeg) {
     EXPECT_GE(matchedVideoQp(quality), matchedVideoQp(quality + 1)) << quality;
     EXPECT_LE(matchedVideoQp(quality), 51u);
   }
-  EXPECT_GE(matchedVideoQp(100), 1u);
+  EXPECT_GE(matchedVideoQp(100), 20u);
 }
 
 TEST(Encoding, refusesVideoWherePixelsAreNoViews) {
@@ -35,7 +35,7 @@ TEST(Encoding, refusesVideoWherePixelsAreNoViews) {
 TEST(Encoding, refusesVideoOfDepth) {
   EXPECT_FALSE(validateEncodingSpec({.planes = BandEncoding::kH264}).ok());
   EXPECT_FALSE(validateEncodingSpec({.video_qp = 52}).ok());
-  EXPECT_FALSE(validateEncodingSpec({.video_qp = 0}).ok());
+  EXPECT_FALSE(validateEncodingSpec({.video_qp = 19}).ok());
 }
 
 TEST(EncodingKey, ignoresWhatDoesNotReachTheBytes) {

@@ -134,10 +134,26 @@ TEST(OpenH264, codesSlicesOnSeveralThreads) {
   for (const AccessUnit& unit : units) EXPECT_TRUE(decoder->decode(unit, size_px).ok());
 }
 
+// Noise takes the most bytes. An encoder may refuse it, but never writes past its buffers.
+TEST(OpenH264, codesNoiseOrRefusesIt) {
+  for (const SizePx size_px : {SizePx{64, 64}, SizePx{256, 256}}) {
+    for (const uint32_t thread_count : {1, 4}) {
+      const auto encoder =
+          encoderOf({.size_px = size_px, .qp = kVideoQpMin, .thread_count = thread_count});
+      const SamplePicture noise = SamplePicture::noise(size_px);
+      for (int i = 0; i < 3; ++i) {
+        AccessUnit unit;
+        const absl::Status status = encoder->encode(noise.video(), referenceOf(i), unit);
+        EXPECT_TRUE(status.ok() || unit.empty());
+      }
+    }
+  }
+}
+
 TEST(OpenH264, refusesFormatsThatItCannotCode) {
   for (const VideoFormat& format :
        {VideoFormat{.size_px = {15, 16}}, VideoFormat{.size_px = {33, 32}},
-        VideoFormat{.size_px = {4096, 2306}}, VideoFormat{.size_px = {64, 64}, .qp = 0},
+        VideoFormat{.size_px = {4096, 2306}}, VideoFormat{.size_px = {64, 64}, .qp = kVideoQpMin - 1},
         VideoFormat{.size_px = {64, 64}, .qp = 52},
         VideoFormat{.size_px = {64, 64}, .thread_count = 17}}) {
     EXPECT_EQ(OpenH264Encoder::make(format).status().code(), absl::StatusCode::kInvalidArgument);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <random>
 #include <vector>
 
 #include "video/video_picture.h"
@@ -29,6 +30,15 @@ class SamplePicture {
         picture.cb_[at] = wave(2 * x - moved_px, 3.0 * y);
         picture.cr_[at] = wave(2 * y, 2 * x - moved_px);
       }
+    }
+    return picture;
+  }
+  // Samples of 0 and 255 alone: nothing predicts them.
+  static SamplePicture noise(SizePx size_px) {
+    SamplePicture picture(size_px);
+    std::mt19937 random(1);
+    for (std::vector<uint8_t>* const plane : {&picture.luma_, &picture.cb_, &picture.cr_}) {
+      for (uint8_t& code : *plane) code = random() % 2 == 0 ? 0 : 255;
     }
     return picture;
   }
