@@ -44,6 +44,14 @@ class Refusals(unittest.TestCase):
         self.refused("color", "samples of uint16", color=COLOR.astype(np.uint16))
         self.refused("color", "samples of bool", color=COLOR.astype(bool))
 
+    def test_coded_colour_that_says_no_picture(self):
+        self.refused("color", "'avif', must be one of h264, jpeg",
+                     color=viewloom.CodedColor(b"x", (6, 4), "avif"))
+        self.refused("color", "no bytes", color=viewloom.CodedColor(b"", (6, 4)))
+        self.refused("color", "(width, height)", color=viewloom.CodedColor(b"x", (6, 0)))
+        self.refused("alpha", "must be opaque, as color is coded",
+                     color=viewloom.CodedColor(b"x", (6, 4)), alpha="straight")
+
     def test_light_that_binary16_cannot_hold(self):
         for value in (70000.0, math.inf, math.nan):
             color = np.zeros((4, 6, 3))
@@ -143,6 +151,21 @@ class Wire(unittest.TestCase):
         color = messages_of(viewloom.Source(floats, DEPTH, fov_y_rad=1))[1].chunk.data
         self.assertEqual(np.frombuffer(color, "<f2").reshape(4, 6, 4)[2, 3].tolist(),
                          [0.25, 0.25, 0.25, 1])
+
+    def test_coded_colour_travels_as_it_is(self):
+        video = bytes(range(256)) * 5
+        messages = messages_of(viewloom.Source(viewloom.CodedColor(video, (640, 481)), DEPTH,
+                                               fov_y_rad=1.0), zstd_level=3)
+        color, depth = messages[0].header.sources[0].layers[0].planes
+        self.assertEqual(color.encoding, frame_pb2.PLANE_ENCODING_H264)
+        self.assertEqual(color.compression, frame_pb2.PLANE_COMPRESSION_UNSPECIFIED)
+        self.assertEqual((color.size.width, color.size.height, color.bytes_count),
+                         (640, 481, len(video)))
+        self.assertEqual(depth.compression, frame_pb2.PLANE_COMPRESSION_ZSTD)
+        self.assertEqual(messages[1].chunk.data, video)
+        jpeg, _ = planes_of(viewloom.Source([viewloom.CodedColor(b"ab", (6, 4), "jpeg")], [DEPTH],
+                                            fov_y_rad=1.0))
+        self.assertEqual(jpeg.encoding, frame_pb2.PLANE_ENCODING_JPEG)
 
     def test_words_become_what_the_planes_declare(self):
         color, depth = planes_of(viewloom.Source(

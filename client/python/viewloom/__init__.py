@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from viewloom import aio
     from viewloom.atlas import Atlas, view_window
     from viewloom.clock import ClockOffset
+    from viewloom.coded_color import CodedColor
     from viewloom.display import encoding
     from viewloom.errors import BadInput, UnlikelyInput, ViewloomError
     from viewloom.publisher import Publisher
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from viewloom.watcher import Watcher
 else:
     _MODULES = {"Atlas": "atlas", "BadInput": "errors", "ClockOffset": "clock",
+                "CodedColor": "coded_color",
                 "Publisher": "publisher", "Server": "server", "Source": "source",
                 "Tls": "tls", "UnlikelyInput": "errors", "ViewloomError": "errors",
                 "Watcher": "watcher", "connect": "server", "encoding": "display",
@@ -40,6 +42,6 @@ else:
             raise AttributeError(f"module 'viewloom' has no attribute '{name}'")
         return getattr(importlib.import_module(f"viewloom.{_MODULES[name]}"), name)
 
-__all__ = ["Atlas", "BadInput", "ClockOffset", "Publisher", "Server", "Source", "Tls",
-           "UnlikelyInput", "ViewloomError", "Watcher", "__version__", "aio", "connect",
-           "encoding", "view_window"]
+__all__ = ["Atlas", "BadInput", "ClockOffset", "CodedColor", "Publisher", "Server", "Source",
+           "Tls", "UnlikelyInput", "ViewloomError", "Watcher", "__version__", "aio",
+           "connect", "encoding", "view_window"]

@@ -17,6 +17,9 @@ from viewloom.v1.ingest_service_pb2 import (FrameChunk, Heartbeat, PublishFrames
 
 CHUNK_BYTES_MAX = 1 << 20
 
+# Already packed: zstd gains nothing, and servers refuse it around H.264.
+_CODED = (frame_pb2.PLANE_ENCODING_JPEG, frame_pb2.PLANE_ENCODING_H264)
+
 _TONE_MAPS = {"clip": frame_pb2.TONE_MAP_CLIP, "filmic": frame_pb2.TONE_MAP_FILMIC,
               "agx": frame_pb2.TONE_MAP_AGX}
 
@@ -30,7 +33,7 @@ def _wire_bytes(plane: WirePlane, zstd_level: int) -> Any:
     """The plane's bytes as they travel; completes what the header says of them."""
     samples = plane.samples.data.cast("B")
     plane.declared.bytes_count = samples.nbytes
-    if zstd_level == 0:
+    if zstd_level == 0 or plane.declared.encoding in _CODED:
         return samples
     packed = zstandard.ZstdCompressor(level=zstd_level).compress(samples)
     plane.declared.compression = frame_pb2.PLANE_COMPRESSION_ZSTD

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viewloom.arrays import color_array, depth_array
+from viewloom.coded_color import CodedColor
 from viewloom.errors import UnlikelyInput
 from viewloom.planes import depth_format
 from viewloom.source import Source
@@ -125,7 +126,10 @@ class FrameWarnings:
             self._warn("surface", _nothing_seen(depths, form))
         if self._is_trusted:
             return
-        color = _layers(source.color, color_array)[0]
+        front = source.color[0] if isinstance(source.color, (list, tuple)) else source.color
+        if isinstance(front, CodedColor):  # its samples are not at hand
+            return
+        color = color_array(front, "")
         found = {"range": _color_range(_sparse(color), source.transfer),
                  "turned": _turned(color, depths[0]),
                  "unit": None if form is not None else _far_away(_sparse(depths[0]))}

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from viewloom.arrays import color_array, depth_array, sample_type
+from viewloom.coded_color import CodedColor, coded_format
 from viewloom.errors import BadInput
 from viewloom.messages import message_from
 from viewloom.v1 import frame_pb2
@@ -30,7 +31,10 @@ _ALPHAS = {"opaque": frame_pb2.ALPHA_MODE_OPAQUE, "straight": frame_pb2.ALPHA_MO
 
 
 class WirePlane(NamedTuple):
-    """A plane as declared, but for bytes_count and compression, and its samples, packed."""
+    """A plane as declared, but for bytes_count and compression, and its samples, packed.
+
+    Of CodedColor, the samples are its bytes.
+    """
 
     declared: frame_pb2.Plane
     samples: NDArray[Any]
@@ -63,8 +67,22 @@ def _half_rgba(color: NDArray[Any], field: str) -> NDArray[Any]:
     return half
 
 
+def _coded_plane(color: CodedColor, field: str, meaning: ColorMeaning) -> WirePlane:
+    if meaning.alpha != "opaque":
+        raise BadInput("alpha", f"is {meaning.alpha}, must be opaque, as {field} is coded")
+    coded = coded_format(color, field)
+    return WirePlane(frame_pb2.Plane(
+        kind=frame_pb2.PLANE_KIND_COLOR, encoding=coded.encoding,
+        size={"width": coded.width, "height": coded.height},
+        transfer=_word(_TRANSFERS, meaning.transfer or "srgb", "transfer"),
+        primaries=_word(_PRIMARIES, meaning.primaries, "primaries")),
+        np.frombuffer(color.data, np.uint8))
+
+
 def color_plane(color: Any, field: str, meaning: ColorMeaning = ColorMeaning()) -> WirePlane:
-    """uint8 or float [height][width][3 or 4], top row first; raises BadInput for others."""
+    """uint8 or float [height][width][3 or 4], top row first, or CodedColor. Raises BadInput."""
+    if isinstance(color, CodedColor):
+        return _coded_plane(color, field, meaning)
     array = color_array(color, field)
     kind = sample_type(array)
     if kind == "u1":

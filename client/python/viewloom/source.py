@@ -10,6 +10,7 @@ from typing import Any, Optional, Sequence, Union
 from numpy.typing import NDArray
 
 from viewloom.camera import PoseLike, make_camera
+from viewloom.coded_color import CodedColor
 from viewloom.errors import BadInput
 from viewloom.planes import (ColorMeaning, DepthFormatLike, WirePlane, color_plane, depth_format,
                              depth_plane)
@@ -17,6 +18,7 @@ from viewloom.surface import motion_plane, normal_plane, roughness_plane, specul
 from viewloom.v1 import frame_pb2, geometry_pb2
 
 ArrayOrLayers = Union[NDArray[Any], Sequence[NDArray[Any]]]
+ColorOrLayers = Union[NDArray[Any], CodedColor, Sequence[Union[NDArray[Any], CodedColor]]]
 _LAYER_COUNT_MAX = 4
 
 
@@ -34,7 +36,7 @@ class Source:
     """Colour and depth of one camera; with several layers, one array each, the nearest first.
 
     color:  uint8 or float [height_px][width_px][3 or 4], top row first. May be larger or smaller
-            than depth. Floats are sent as binary16, at most 65504.
+            than depth. Floats are sent as binary16, at most 65504. Or a CodedColor.
     depth:  float16, float32, float64 or uint16 [height_px][width_px], top row first. Metres along
             the view axis unless depth_format says otherwise; +inf is the sky; NaN and 0 are no
             surface. float64 is sent as float32.
@@ -66,7 +68,7 @@ class Source:
     cube_map:    six square faces below each other: +x, -x, +y, -y, +z, -z, as in proto Source.
     """
 
-    color: ArrayOrLayers
+    color: ColorOrLayers
     depth: ArrayOrLayers
     fov_y_rad: Optional[float] = None
     fov: Optional[Sequence[float]] = None
@@ -98,7 +100,7 @@ class Source:
                            without_projection=self.cube_map)
 
 
-def _layers(value: ArrayOrLayers, field: str) -> list[tuple[str, Any]]:
+def _layers(value: ColorOrLayers, field: str) -> list[tuple[str, Any]]:
     """Each layer's array, and what it is called."""
     if isinstance(value, (list, tuple)):
         return [(f"{field}[{index}]", layer) for index, layer in enumerate(value)]
