@@ -37,6 +37,8 @@ std::string sampleText(const v1::Plane& plane) {
       return "RGBA, floats of 16 bits";
     case v1::PLANE_ENCODING_JPEG:
       return "JPEG";
+    case v1::PLANE_ENCODING_H264:
+      return "H.264";
     case v1::PLANE_ENCODING_DEPTH_F16:
       return "floats of 16 bits";
     case v1::PLANE_ENCODING_DEPTH_F32:

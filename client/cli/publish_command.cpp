@@ -92,6 +92,40 @@ void addSourceOptions(const usage::Command& app, PublishOptions& options) {
       .group("Content");
 }
 
+void addEncodingOptions(const usage::Command& app, PublishRunOptions& run) {
+  const char* const group = "Stream";
+  app.add("--zstd", run.zstd_level,
+          "Level of zstd compression, 1 to 19, for slow networks; 0 is off")
+      .valueName("LEVEL")
+      .between(0, 19)
+      .showDefault()
+      .group(group);
+  app.add("--depth-encoding", run.depth_encoding,
+          "How depth is sent\n"
+          "plain      unchanged\n"
+          "predicted  as 16-bit inverse depth (1/Z), in about a tenth of the bytes;\n"
+          "           unchanged if its steps would show\n"
+          "auto       plain to a server on this machine, else predicted")
+      .oneOf({"auto", "plain", "predicted"})
+      .showDefault()
+      .group(group);
+  app.add("--color-encoding", run.color_encoding,
+          "How colour is sent\n"
+          "plain      unchanged\n"
+          "video      as H.264, in a hundredth of the bytes, with small errors\n"
+          "auto       plain to a server on this machine, and of replays and patterns; else video\n"
+          "           for pictures of at least 256x256 px")
+      .oneOf({"auto", "plain", "video"})
+      .showDefault()
+      .group(group);
+  app.add("--color-qp", run.color_qp,
+          "Quantisation of colour as video, 20 to 51; less is better, and takes more bytes")
+      .valueName("QP")
+      .between(kColorQpMin, kColorQpMax)
+      .showDefault()
+      .group(group);
+}
+
 void addStreamOptions(const usage::Command& app, PublishOptions& options) {
   const char* const group = "Stream";
   PublishRunOptions& run = options.run;
@@ -122,21 +156,7 @@ void addStreamOptions(const usage::Command& app, PublishOptions& options) {
       .group(group);
   app.addFlag("--hold", run.is_holding, "Keep the stream open after the last frame, until Ctrl-C")
       .group(group);
-  app.add("--zstd", run.zstd_level,
-          "Level of zstd compression, 1 to 19, for slow networks; 0 is off")
-      .valueName("LEVEL")
-      .between(0, 19)
-      .showDefault()
-      .group(group);
-  app.add("--depth-encoding", run.depth_encoding,
-          "How depth is sent\n"
-          "plain      unchanged\n"
-          "predicted  as 16-bit inverse depth (1/Z), in about a tenth of the bytes;\n"
-          "           unchanged if its steps would show\n"
-          "auto       plain to a server on this machine, else predicted")
-      .oneOf({"auto", "plain", "predicted"})
-      .showDefault()
-      .group(group);
+  addEncodingOptions(app, run);
   app.add("--record", run.record_file, "Record the sent frames in this file")
       .valueName("FILE")
       .group(group);
@@ -171,6 +191,11 @@ absl::StatusOr<std::unique_ptr<FrameFeed>> makePatternFeed(const PublishOptions&
   auto feed = PatternFrames::make(options.pattern.name, pattern, options.synthetic.duration_s);
   if (!feed.ok()) return feed.status();
   return *std::move(feed);
+}
+
+// Replays repeat bytes, and patterns judge displays: neither is changed unless it is asked for.
+bool changesNoColor(const PublishOptions& options) {
+  return !options.replay.file.empty() || !options.pattern.name.empty();
 }
 
 absl::StatusOr<std::unique_ptr<FrameFeed>> makeFeed(const PublishOptions& options) {
@@ -241,7 +266,9 @@ RunCommand addPublishCommand(const usage::Command& app) {
       reportError(feed.status(), common);
       return kExitUsage;
     }
-    return runPublish(options->run, common, *std::move(feed));
+    PublishRunOptions run = options->run;
+    if (run.color_encoding == "auto" && changesNoColor(*options)) run.color_encoding = "plain";
+    return runPublish(run, common, *std::move(feed));
   };
 }
 

@@ -26,6 +26,10 @@ constexpr int64_t kTick_ns = 20'000'000;          // how soon an interrupt or a 
 constexpr int64_t kFinish_ns = 120'000'000'000;   // for the reports of the last frames
 constexpr int64_t kInterrupted_ns = 700'000'000;  // the same after Ctrl-C
 
+// Coding and decoding of a picture take about as long as a gigabit link takes for its RGB
+// (tests/performance.md, "Colour as video"). Smaller ones would be late there.
+constexpr uint64_t kVideoGain_px = uint64_t{256} * 256;
+
 class PublishRun {
  public:
   PublishRun(const PublishRunOptions& options, const CommonOptions& common,
@@ -61,7 +65,8 @@ class PublishRun {
                                              PublisherOptions{.stream = options_.stream,
                                                               .session_id = options_.session_id,
                                                               .zstd_level = options_.zstd_level,
-                                                              .predicts_depth = predictsDepth()},
+                                                              .predicts_depth = predictsDepth(),
+                                                              .color_video = colorVideo()},
                                              callbacks());
     FramePace pace(clock_, options_.rate_hz.value_or(kDefaultRate_hz));
     double elapsed_s = 0;
@@ -83,6 +88,13 @@ class PublishRun {
   bool predictsDepth() const {
     if (options_.depth_encoding != "auto") return options_.depth_encoding == "predicted";
     return !staysOnMachine(common_.server);
+  }
+
+  std::optional<ColorVideo> colorVideo() const {
+    if (options_.color_encoding == "video") return ColorVideo{.qp = options_.color_qp};
+    const bool is_plain = options_.color_encoding == "plain" || staysOnMachine(common_.server);
+    if (is_plain) return std::nullopt;
+    return ColorVideo{.qp = options_.color_qp, .area_min_px = kVideoGain_px};
   }
 
   absl::StatusOr<std::optional<WireFrame>> nextFrame(double elapsed_s) {

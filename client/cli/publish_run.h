@@ -2,6 +2,7 @@
 // One run of `viewloom publish`: from the first frame to the last report.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,8 +21,13 @@ struct PublishRunOptions {
   bool has_no_retry = false;
   int zstd_level = 0;
   std::string depth_encoding = "auto";  // or plain, predicted
+  std::string color_encoding = "auto";  // or plain, video
+  uint32_t color_qp = 22;               // of video
   std::string record_file;              // "" = none
 };
+
+inline constexpr uint32_t kColorQpMin = 20;  // kVideoQpMin
+inline constexpr uint32_t kColorQpMax = 51;
 
 inline constexpr double kDefaultRate_hz = 15;
 

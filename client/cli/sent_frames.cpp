@@ -18,6 +18,7 @@ absl::Status SentFrames::record(const std::string& file) {
 
 void SentFrames::take(const CompressedFrame& frame) {
   tellDepth(frame.depth);
+  tellColor(frame.frame.header);
   std::lock_guard recording(recorder_mutex_);
   if (!recorder_ || !failure().ok()) return;
   absl::Status status = recorder_->add(frame.frame);
@@ -47,6 +48,20 @@ void SentFrames::tellDepth(const std::vector<QuantisedDepth>& sources) {
                      " do not show (--depth-encoding plain "
                      "sends it unchanged)"));
   }
+}
+
+// Once: pictures of a feed seldom differ in size.
+void SentFrames::tellColor(const v1::FrameHeader& header) {
+  const auto is_video = [](const v1::Layer& layer) {
+    return std::ranges::any_of(layer.planes(), [](const v1::Plane& plane) {
+      return plane.encoding() == v1::PLANE_ENCODING_H264;
+    });
+  };
+  const bool has_video = std::ranges::any_of(header.sources(), [&](const v1::Source& source) {
+    return std::ranges::any_of(source.layers(), is_video);
+  });
+  if (!has_video || std::exchange(has_told_color_, true)) return;
+  line_.say("colour is sent as video, with small errors (see --color-encoding)");
 }
 
 absl::Status SentFrames::failure() const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Follow-up of frames that `viewloom publish` has sent: reports on their depth, and a recording of
-// them.
+// Follow-up of frames that `viewloom publish` has sent: reports on their depth and colour, and a
+// recording of them.
 #pragma once
 
 #include <memory>
@@ -35,6 +35,7 @@ class SentFrames {
 
  private:
   void tellDepth(const std::vector<QuantisedDepth>& sources);
+  void tellColor(const v1::FrameHeader& header);
 
   StatusLine& line_;
   const Clock& clock_;
@@ -42,6 +43,7 @@ class SentFrames {
   std::mutex recorder_mutex_;                // held while a frame is written; before mutex_
   std::unique_ptr<FrameRecorder> recorder_;  // null = none
   enum class Told { kNothing, kQuantised, kKept } told_ = Told::kNothing;
+  bool has_told_color_ = false;
   mutable std::mutex mutex_;
   absl::Status failure_;
   double depth_step_ = 0;

@@ -75,7 +75,8 @@ bool canPredict(const v1::Plane& plane, const SharedBytes& bytes) {
 
 void compressPlane(const CompressionOptions& options, v1::Plane& plane, SharedBytes& bytes) {
   const bool packed = plane.compression() > v1::PLANE_COMPRESSION_NONE ||
-                      plane.encoding() == v1::PLANE_ENCODING_JPEG;
+                      plane.encoding() == v1::PLANE_ENCODING_JPEG ||
+                      plane.encoding() == v1::PLANE_ENCODING_H264;
   if (packed) return;
   const bool is_for_depth = options.predicts_depth && plane.kind() == v1::PLANE_KIND_DEPTH;
   const int level = is_for_depth ? std::max(options.zstd_level, kDepthLevel) : options.zstd_level;

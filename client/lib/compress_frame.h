@@ -33,7 +33,8 @@ struct CompressedFrame {
   std::vector<QuantisedDepth> depth;  // one for each source; empty if depth is not predicted
 };
 
-// Compresses a frame. JPEG planes, compressed planes and planes that would grow are not changed.
+// Compresses a frame. JPEG and H.264 planes, compressed planes and planes that would grow are not
+// changed.
 CompressedFrame compressFrame(WireFrame frame, const CompressionOptions& options);
 
 }  // namespace viewloom

@@ -9,6 +9,7 @@
 #include "base/check.h"
 #include "base/str_cat.h"
 #include "lib/channel.h"
+#include "lib/color_coder.h"
 #include "lib/frame_messages.h"
 #include "lib/server_clock.h"
 #include "messages/wire_message.h"
@@ -29,7 +30,9 @@ Publisher::Publisher(std::shared_ptr<grpc::Channel> channel, PublisherOptions op
                      PublisherCallbacks callbacks)
     : options_(withSession(std::move(options))),
       callbacks_(std::move(callbacks)),
-      channel_(std::move(channel)) {
+      channel_(std::move(channel)),
+      color_coder_(options_.color_video ? std::make_unique<ColorCoder>(*options_.color_video)
+                                        : nullptr) {
   thread_ = std::jthread([this](const std::stop_token& stop) {
     RetryLoop loop(options_.backoff, callbacks_.on_connection);
     absl::Status status = loop.run(stop, [&] { return runCall(stop); });
@@ -223,6 +226,7 @@ void Publisher::sendFrames(HeartbeatWriter& writer, const std::stop_token& stop)
       std::lock_guard lock(mutex_);
       newest_sent_ = *frame;
     }
+    if (color_coder_) color_coder_->code(*frame);
     const CompressedFrame compressed = compressFrame(
         *std::move(frame),
         {.zstd_level = options_.zstd_level, .predicts_depth = options_.predicts_depth});

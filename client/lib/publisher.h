@@ -16,6 +16,7 @@
 #include <grpcpp/client_context.h>
 
 #include "base/status.h"
+#include "lib/color_video.h"
 #include "lib/compress_frame.h"
 #include "lib/frame_messages.h"
 #include "lib/heartbeat_writer.h"
@@ -27,11 +28,15 @@
 
 namespace viewloom {
 
+class ColorCoder;
+
 struct PublisherOptions {
   std::string stream;
   std::string session_id;       // lets only this publisher come back; empty = random
   int zstd_level = 0;           // 0 = planes are not compressed
   bool predicts_depth = false;  // as in CompressionOptions
+  // Colour is sent as video, with small errors. Nothing: it is sent unchanged.
+  std::optional<ColorVideo> color_video = {};
   // Most frames that are sent and not yet reported. The server receives one, builds one and renders
   // one at a time. Further ones would only grow old on their way.
   size_t in_flight_max = 4;
@@ -130,7 +135,8 @@ class Publisher {
   bool finishing_ = false;
   std::optional<absl::Status> ended_;
   PublisherCounts counts_;
-  ChunkSize chunk_size_;  // used by thread_ only
+  ChunkSize chunk_size_;                           // used by thread_ only, as the next
+  const std::unique_ptr<ColorCoder> color_coder_;  // null = colour is sent unchanged
 
   std::jthread thread_;  // last: it uses the members above
 };

@@ -90,6 +90,28 @@ TEST_F(Uplink, isChosenByTheCommandAndSaysItsStep) {
   EXPECT_EQ(run(publish + " --depth-encoding finest"), 2);
 }
 
+TEST_F(Uplink, sendsColorAsVideoIfAskedTo) {
+  const std::string publish = "publish --synthetic --layers 2 --size 321x181 --seconds 0.2 -q ";
+  const fs::path recording = file("video.vlr");
+  EXPECT_EQ(run(publish + "--color-encoding video --record " + recording.string()), 0) << said();
+  EXPECT_THAT(said(), HasSubstr("colour is sent as video"));
+  for (const RecordedFrame& recorded : framesOf(recording)) {
+    for (const v1::Layer& layer : recorded.frame.header.sources(0).layers()) {
+      EXPECT_EQ(layer.planes(0).encoding(), v1::PLANE_ENCODING_H264);
+      EXPECT_EQ(layer.planes(1).encoding(), v1::PLANE_ENCODING_DEPTH_F32);
+    }
+  }
+  const fs::path replayed = file("replayed.vlr");
+  ASSERT_EQ(run("publish --replay " + recording.string() + " -q --record " + replayed.string()), 0)
+      << said();
+  EXPECT_EQ(*framesOf(replayed).at(0).frame.planes.at(0),
+            *framesOf(recording).at(0).frame.planes.at(0));
+  EXPECT_EQ(run(publish), 0) << "auto: a socket stays on this machine";
+  EXPECT_THAT(said(), Not(HasSubstr("video")));
+  EXPECT_EQ(run(publish + "--color-encoding finest"), 2);
+  EXPECT_EQ(run(publish + "--color-encoding video --color-qp 19"), 2);
+}
+
 TEST_F(Uplink, replaysTheBytesOfRecordedFramesAndTheirTimes) {
   const fs::path first = file("first.vlr");
   const fs::path second = file("second.vlr");
