@@ -28,8 +28,8 @@ absl::Status checkFormat(const VideoFormat& format) {
                                              " px together"));
   }
   if (format.qp < kVideoQpMin || format.qp > kQpMax) {
-    return absl::InvalidArgumentError(strCat("quantisation ", format.qp, "; accepted is ",
-                                             kVideoQpMin, " to ", kQpMax));
+    return absl::InvalidArgumentError(
+        strCat("quantisation ", format.qp, "; accepted is ", kVideoQpMin, " to ", kQpMax));
   }
   if (format.thread_count < 1 || format.thread_count > kThreadsMax) {
     return absl::InvalidArgumentError(
