@@ -18,6 +18,14 @@ JPEG_ERROR_MAX = 6  # of 255, at quality 95, of slow ramps
 INV_Z_ERROR_MAX = 1e-6  # 1/m: depth goes through a division, and is bounded outwards
 
 
+# A gradient of 32x32 px by x264: high profile, full range, BT.601.
+VIDEO = bytes.fromhex(
+    "000000016764100aacb92d80b702020640000003004000000f010000000168ee06f2c00000016588843fad36"
+    "59a490ea31ea5884ba27575b5052d38f6825cb0571e0c51338df351baf2c38ba796a9ed683d18d4edc4687b1"
+    "b1c7782ecce34de0eaa0d8eb71f923ef12d01b34f08ceb51459860015e3a20e86f04b4ad273ac07f2e380cff"
+    "16da1f0916351360fe32c814b5c0b9759f781f4a047781c50bf14bffd47e0599bfc1")
+
+
 def srgb_from_linear(light):
     """IEC 61966-2-1, to 0..255."""
     return 255 * np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
@@ -53,6 +61,17 @@ class Publishing(unittest.TestCase):
                              [ingest.FRAME_OUTCOME_UNCHANGED])
             self.assertAlmostEqual(reports[0].stats.inv_z_max, 1 / scene.NEAR_M, delta=1e-4)
             self.assertEqual((still.header.frame_number, still.header.capture_time_ns), (2, 42))
+
+    def test_video_that_was_coded_elsewhere_is_taken_or_refused_by_name(self):
+        depth_m = np.full((32, 32), 2.0, np.float32)
+        with self.server.publish("coded") as publisher:
+            reports = [publisher.send(viewloom.Source(viewloom.CodedColor(video, (32, 32)), depth_m,
+                                                      fov_y_rad=0.6)).result(viewloomd.PATIENCE_S)
+                       for video in (VIDEO, VIDEO[:VIDEO.index(b"\0\0\1\x65")])]
+        self.assertEqual(reports[0].outcome, ingest.FRAME_OUTCOME_BUILT_WITHOUT_DISPLAY)
+        self.assertEqual(reports[1].outcome, ingest.FRAME_OUTCOME_REFUSED)
+        self.assertIn("layers[0].planes[0]", reports[1].reason)
+        self.assertIn("parameter sets without a picture", reports[1].reason)
 
     def test_the_sources_own_view_is_the_picture_exactly(self):
         color, depth_m = scene.noise_color(), scene.step_depth()

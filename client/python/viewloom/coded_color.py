@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import dataclasses
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from viewloom.errors import BadInput
 from viewloom.v1 import frame_pb2
@@ -34,7 +34,7 @@ class CodedColor:
 class CodedFormat(NamedTuple):
     """What a plane of these bytes declares."""
 
-    encoding: int
+    encoding: Any  # a PlaneEncoding
     width: int
     height: int
 
