@@ -5,10 +5,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "base/str_cat.h"
 
@@ -77,7 +79,7 @@ absl::StatusOr<std::unique_ptr<OutputFile>> OutputFile::create(std::filesystem::
   const std::filesystem::path partial = partialPath(path);
   unlink(partial.c_str());  // left by a command that was killed
   const int descriptor =
-      ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
+      ::open(partial.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, mode);
   if (descriptor < 0) {
     return absl::InvalidArgumentError(strCat(path.string(), ": cannot be written (",
                                              std::strerror(errno),
@@ -103,6 +105,51 @@ absl::Status OutputFile::cutTo(uint64_t bytes) {
   if (!is_cut) return failed(errno);
   size_ = bytes;
   return absl::OkStatus();
+}
+
+absl::Status OutputFile::readAt(uint64_t offset, std::span<char> bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t count = pread(descriptor_, bytes.data(), bytes.size(), off_t(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count <= 0) return failed(count < 0 ? errno : EIO);
+    offset += uint64_t(count);
+    bytes = bytes.subspan(size_t(count));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status OutputFile::writeAt(uint64_t offset, std::string_view bytes) const {
+  while (!bytes.empty()) {
+    const ssize_t count = pwrite(descriptor_, bytes.data(), bytes.size(), off_t(offset));
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return failed(errno);
+    offset += uint64_t(count);
+    bytes.remove_prefix(size_t(count));
+  }
+  return absl::OkStatus();
+}
+
+// All room is taken before anything moves. Blocks then move from the last one on, so that none is
+// overwritten before it has moved.
+absl::Status OutputFile::insertFront(std::string_view bytes) {
+  constexpr uint64_t kBlock_bytes = uint64_t{1} << 20;
+  const uint64_t old_size = size_;
+  if (bytes.empty()) return absl::OkStatus();
+  const int no_room = posix_fallocate(descriptor_, off_t(old_size), off_t(bytes.size()));
+  if (no_room != 0) {
+    VIEWLOOM_RETURN_IF_ERROR(cutTo(old_size));
+    return failed(no_room);
+  }
+  std::vector<char> block(std::min(kBlock_bytes, old_size));
+  for (uint64_t end = old_size; end > 0;) {
+    const std::span<char> moved = std::span(block).first(std::min<uint64_t>(block.size(), end));
+    end -= moved.size();
+    VIEWLOOM_RETURN_IF_ERROR(readAt(end, moved));
+    VIEWLOOM_RETURN_IF_ERROR(writeAt(end + bytes.size(), {moved.data(), moved.size()}));
+  }
+  VIEWLOOM_RETURN_IF_ERROR(writeAt(0, bytes));
+  size_ = old_size + bytes.size();
+  return lseek(descriptor_, off_t(size_), SEEK_SET) < 0 ? failed(errno) : absl::OkStatus();
 }
 
 absl::Status OutputFile::keepOwner() {

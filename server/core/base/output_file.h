@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string_view>
 
 #include "base/status.h"
@@ -34,6 +35,9 @@ class OutputFile {
   absl::Status write(std::string_view bytes);
   // Cuts the file to so many bytes. The next write continues there.
   absl::Status cutTo(uint64_t bytes);
+  // Moves everything that is written behind `bytes`, and writes these at the beginning. The file
+  // stays as it is if the disk has no room for them.
+  absl::Status insertFront(std::string_view bytes);
   uint64_t size() const { return size_; }
 
   // Gives a file of root to the owner of the one that it replaces; of the folder while there is
@@ -48,6 +52,8 @@ class OutputFile {
  private:
   OutputFile(std::filesystem::path path, int descriptor);
   absl::Status failed(int error) const;
+  absl::Status readAt(uint64_t offset, std::span<char> bytes) const;
+  absl::Status writeAt(uint64_t offset, std::string_view bytes) const;
 
   const std::filesystem::path path_;
   const std::filesystem::path partial_path_;

@@ -128,5 +128,35 @@ TEST_F(OutputFileTest, saysThatItReachedTheLargestSizeAllowed) {
   EXPECT_EQ(fileCount(), 0U);
 }
 
+TEST_F(OutputFileTest, movesWhatIsWrittenBehindAFront) {
+  const std::string body(3'000'000, 'b');
+  auto out = OutputFile::create(folder_ / "a");
+  ASSERT_TRUE(out.ok()) << out.status();
+  ASSERT_TRUE((*out)->write(body + "end").ok());
+  ASSERT_TRUE((*out)->insertFront("front").ok());
+  EXPECT_EQ((*out)->size(), body.size() + 8);
+  ASSERT_TRUE((*out)->write("!").ok());
+  ASSERT_TRUE((*out)->replace().ok());
+  EXPECT_EQ(textOf(folder_ / "a"), "front" + body + "end!");
+}
+
+TEST_F(OutputFileTest, staysAsItIsWithoutRoomForAFront) {
+  signal(SIGXFSZ, SIG_IGN);
+  auto out = OutputFile::create(folder_ / "a");
+  ASSERT_TRUE(out.ok()) << out.status();
+  ASSERT_TRUE((*out)->write("body").ok());
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit small = before;
+  small.rlim_cur = 8;
+  setrlimit(RLIMIT_FSIZE, &small);
+  const absl::Status inserted = (*out)->insertFront("too long");
+  setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(inserted.code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_EQ((*out)->size(), 4U);
+  ASSERT_TRUE((*out)->replace().ok());
+  EXPECT_EQ(textOf(folder_ / "a"), "body");
+}
+
 }  // namespace
 }  // namespace viewloom::output_file_test
