@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Atlases as pictures of a video for players: tiles where the atlas has them, of even size, without
+// padding, and small enough for the codec.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/status.h"
+#include "frame/size.h"
+#include "video/plane_scaler.h"
+#include "video/video_picture.h"
+
+namespace viewloom {
+
+// Equal tiles of an atlas. The first one begins at the left, `padding_top_px` below the top. All
+// lie inside of the atlas.
+struct AtlasTiles {
+  SizePx atlas_px;
+  SizePx tile_px;
+  uint32_t columns = 1;
+  uint32_t rows = 1;
+  uint32_t padding_top_px = 0;
+
+  bool operator==(const AtlasTiles&) const = default;
+};
+
+// Tiles of a video of an atlas.
+struct VideoTiles {
+  SizePx tile_px;     // even, at most those of the atlas
+  SizePx picture_px;  // columns x rows of them
+
+  bool operator==(const VideoTiles&) const = default;
+};
+
+// The largest tiles that H.264 takes (kVideoAreaMax_px). RESOURCE_EXHAUSTED if there are too many
+// of them.
+absl::StatusOr<VideoTiles> fitVideoTiles(const AtlasTiles& atlas);
+
+// "the atlas of 3360x3360 px is scaled to 3072x3072 px, ...". Empty where tiles keep their size.
+std::string scalingNote(const AtlasTiles& atlas, const VideoTiles& video);
+
+// Makes pictures of atlases of one form. Thread-safety: none.
+class TiledPicture {
+ public:
+  // Expects what fitVideoTiles() has made of the atlas.
+  TiledPicture(const AtlasTiles& atlas, const VideoTiles& video);
+
+  // Bytes that one holds.
+  static uint64_t memoryBytes(const AtlasTiles& atlas, const VideoTiles& video);
+
+  // rgb: uint8_t[atlas height][atlas width][3]. The result is valid until the next call.
+  VideoPicture make(const uint8_t* rgb);
+
+ private:
+  // Planes of one tile of the atlas, or of the whole picture.
+  struct Planes {
+    explicit Planes(SizePx size_px);
+    SizePx chromaSize() const { return {(size_px.width + 1) / 2, (size_px.height + 1) / 2}; }
+
+    SizePx size_px;
+    std::vector<uint8_t> y;
+    std::vector<uint8_t> cb;
+    std::vector<uint8_t> cr;
+  };
+
+  void takeTile(const uint8_t* rgb, uint32_t left_px, uint32_t top_px);
+  void placeTile(uint32_t left_px, uint32_t top_px);
+
+  const AtlasTiles atlas_;
+  const VideoTiles video_;
+  Planes tile_;
+  Planes picture_;
+  std::optional<PlaneScaler> luma_scaler_;  // none where tiles keep their size
+  std::optional<PlaneScaler> chroma_scaler_;
+};
+
+}  // namespace viewloom
