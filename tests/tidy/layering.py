@@ -30,7 +30,8 @@ LAYERS = {
     "server/core/messages": (["base", "frame", "display", "video/h264_parameters.h"],
                              ["absl", "grpc", "nlohmann", "protobuf"]),
     "server/core/usage": (["base"], ["cli11"]),
-    "server/core/video": (["base", "frame/size.h"], ["absl", "openh264"]),
+    "server/core/video": (["base", "frame/size.h", SHADERS_SHARED], ["absl", "openh264"]),
+    "server/core/mp4": (["base", "frame/size.h", "video"], ["absl"]),
     "server/metrics": (["base"], ["prometheus"]),
     # Prices of memory, and its ledger.
     "server/admission": (["base", "frame", "display", SHADERS_SHARED], ["absl"]),

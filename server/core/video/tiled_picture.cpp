@@ -13,8 +13,8 @@
 namespace viewloom {
 namespace {
 
-constexpr uint64_t kMacroblock_px = 16;
-constexpr uint64_t kMacroblocksMax = kVideoAreaMax_px / (kMacroblock_px * kMacroblock_px);
+constexpr uint64_t kBlockSide_px = 16;
+constexpr uint64_t kMacroblocksMax = kVideoAreaMax_px / (kBlockSide_px * kBlockSide_px);
 
 uint32_t evenSide(double side_px) {
   return std::max(uint32_t(side_px) / 2 * 2, 2U);
@@ -22,8 +22,8 @@ uint32_t evenSide(double side_px) {
 
 // Level 5.1 limits the macroblocks of a picture, and of each of its sides (table A-1, A.3.1).
 bool isWithinCodec(SizePx size_px) {
-  const uint64_t columns = (size_px.width + kMacroblock_px - 1) / kMacroblock_px;
-  const uint64_t rows = (size_px.height + kMacroblock_px - 1) / kMacroblock_px;
+  const uint64_t columns = (size_px.width + kBlockSide_px - 1) / kBlockSide_px;
+  const uint64_t rows = (size_px.height + kBlockSide_px - 1) / kBlockSide_px;
   constexpr uint64_t kSquareMax = 8 * kMacroblocksMax;
   return columns * rows <= kMacroblocksMax && columns * columns <= kSquareMax &&
          rows * rows <= kSquareMax;
