@@ -16,6 +16,7 @@
 #include "cli/stream_wait.h"
 #include "lib/watcher.h"
 #include "recording/atlas_recording.h"
+#include "recording/video_recorder.h"
 
 namespace viewloom::cli {
 namespace {
@@ -45,9 +46,9 @@ class RecordRun {
     const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options_.display.encoding);
     if (!encoding.ok()) return usage(encoding.status());
     catchInterrupts();
-    auto recorder = AtlasRecorder::create(options_.file, clock_);
-    if (!recorder.ok()) return usage(recorder.status());
-    recorder_ = *std::move(recorder);
+    auto target = openTarget();
+    if (!target.ok()) return usage(target.status());
+    target_ = *std::move(target);
     v1::OpenDisplay open;
     open.set_stream(options_.stream);
     *open.mutable_display() = *display;
@@ -69,6 +70,13 @@ class RecordRun {
     return kExitUsage;
   }
 
+  absl::StatusOr<std::unique_ptr<AtlasTarget>> openTarget() const {
+    if (isVideoName(options_.file)) {
+      return VideoRecorder::create(options_.file, options_.stream, clock_);
+    }
+    return AtlasRecorder::create(options_.file, clock_);
+  }
+
   WatcherCallbacks callbacks() {
     return {.on_layout = {},
             .on_atlas = {},
@@ -82,7 +90,7 @@ class RecordRun {
     std::lock_guard lock(mutex_);
     if (!failure_.ok()) return;
     if (start_ns_ == 0) start_ns_ = clock_.nowNs();
-    failure_ = recorder_->add(message);
+    failure_ = target_->add(message);
   }
 
   void setFailure(const absl::Status& status) {
@@ -104,7 +112,7 @@ class RecordRun {
 
   bool isWithinAtlas() const {
     std::lock_guard lock(mutex_);
-    return failure_.ok() && recorder_->isWithinAtlas();
+    return failure_.ok() && target_->isWithinAtlas();
   }
 
   // An atlas that has begun is worth waiting for; then the call is broken off.
@@ -135,12 +143,8 @@ class RecordRun {
     absl::Status failed = failure();
     if (failed.ok() && !ended.ok() && !is_stopped) failed = ended;
     // Atlases that came before an error are kept.
-    const absl::Status completed = recorder_->complete();
-    if (completed.ok()) {
-      const uint64_t count = recorder_->atlasCount();
-      line_.say(
-          strCat(options_.file, ": ", count, count == 1 ? " atlas" : " atlases", " recorded"));
-    }
+    const absl::Status completed = target_->complete();
+    if (completed.ok()) line_.say(target_->summary());
     if (!failed.ok()) return reportError(failed, common_);
     if (!completed.ok()) return reportError(completed, common_);
     return is_stopped && options_.count > 0 && options_.duration_s == 0 ? kExitFailed : kExitDone;
@@ -151,7 +155,7 @@ class RecordRun {
   SteadyClock clock_;
   StatusLine line_;
   mutable std::mutex mutex_;
-  std::unique_ptr<AtlasRecorder> recorder_;
+  std::unique_ptr<AtlasTarget> target_;
   int64_t start_ns_ = 0;  // when the first message came; 0 = none has
   absl::Status failure_;
   StreamWait waiting_{line_, common_, options_.stream};
@@ -167,9 +171,12 @@ RunCommand addRecordCommand(const usage::Command& app) {
       "  viewloom record --out demo.vlr                   until Ctrl-C\n"
       "  viewloom record demo --seconds 10 --preset portrait --out portrait.vlr\n"
       "  viewloom watch --from portrait.vlr --out quilts  save its views as pictures\n"
+      "  viewloom record --seconds 10 --out clip.mp4      a video for players of quilts\n"
       "This records views. To record the frames of a publisher, use `viewloom publish --record`.");
   app.add("stream", options->stream, "Name of the stream").showDefault();
-  app.add("--out", options->file, "Recording to write; the file appears when it is complete")
+  app.add("--out", options->file,
+          "Recording to write; the file appears when it is complete\n"
+          "A name that ends in .mp4 gives a video for players of quilts")
       .valueName("FILE")
       .required();
   app.add("--count", options->count, "Atlases to record; 0 records until Ctrl-C").showDefault();

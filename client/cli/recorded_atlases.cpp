@@ -13,14 +13,25 @@
 namespace viewloom::cli {
 namespace {
 
+constexpr int64_t kUsualStep_ns = 33'333'333;  // how long the only picture of a video is shown
+
 struct Found {
   uint64_t atlas_count = 0;
-  double span_s = 0;  // from the first atlas to the last
+  int64_t first_ns = 0;
+  int64_t last_ns = 0;
+  int64_t step_ns = kUsualStep_ns;  // from the last but one to the last
+
+  void note(int64_t time_ns) {
+    if (atlas_count++ == 0) first_ns = last_ns = time_ns;
+    if (time_ns > last_ns) step_ns = time_ns - last_ns;
+    last_ns = time_ns;
+  }
+  double span_s() const { return static_cast<double>(last_ns - first_ns) * 1e-9; }
 };
 
 std::string descriptionOf(const Found& found, const v1::AtlasLayout& layout) {
   return strCat(found.atlas_count, found.atlas_count == 1 ? " atlas" : " atlases", " in ",
-                formatNumber(found.span_s, 1), " s, ", layout.size().width(), "x",
+                formatNumber(found.span_s(), 1), " s, ", layout.size().width(), "x",
                 layout.size().height(), ", ", layout.view_count(), " views of ",
                 layout.tile_size().width(), "x", layout.tile_size().height());
 }
@@ -35,24 +46,21 @@ int watchRecording(const RecordedWatch& options, const CommonOptions& common) {
   StatusLine line(true);
   const auto reader = AtlasRecordingReader::open(options.file);
   if (!reader.ok()) return fail(reader.status(), kExitUsage);
-  const InterruptLimit limit;
-  AtlasFiles files(options.output);
+  const auto outputs = AtlasOutputs::open(options.output, line);
+  if (!outputs.ok()) return fail(outputs.status(), kExitUsage);
+  (*outputs)->beginInterruptible();
   Found found;
   std::string description;
-  std::optional<int64_t> first_ns;
-  while (!isInterrupted() && (options.count == 0 || found.atlas_count < options.count)) {
+  absl::Status failed;
+  while (failed.ok() && !isInterrupted() &&
+         (options.count == 0 || found.atlas_count < options.count)) {
     const absl::StatusOr<std::optional<RecordedAtlas>> recorded = (*reader)->next();
     if (!recorded.ok()) return fail(recorded.status(), kExitUsage);
     if (!recorded->has_value()) break;
     const RecordedAtlas& newest = **recorded;
-    if (!first_ns) first_ns = newest.time_ns;
-    ++found.atlas_count;
-    found.span_s = static_cast<double>(newest.time_ns - *first_ns) * 1e-9;
+    found.note(newest.time_ns);
     description = descriptionOf(found, *newest.atlas.layout);
-    if (options.output.folder.empty()) continue;
-    const absl::StatusOr<AtlasFiles::Written> written = files.write(newest.atlas);
-    if (!written.ok()) return fail(written.status(), kExitFailed);
-    line.print(describe(*written));
+    failed = (*outputs)->write(newest.atlas, newest.time_ns);
   }
   if (found.atlas_count == 0 && !isInterrupted()) {
     return fail(
@@ -60,10 +68,13 @@ int watchRecording(const RecordedWatch& options, const CommonOptions& common) {
             options.file, ": contains no complete atlas. Record it again with `viewloom record`")),
         kExitUsage);
   }
+  const absl::Status completed = (*outputs)->complete(found.last_ns + found.step_ns);
+  if (!failed.ok()) return fail(failed, kExitFailed);
+  if (!completed.ok()) return fail(completed, kExitFailed);
   line.say(strCat(options.file, ": ", description));
   if ((*reader)->isCutShort()) {
     line.say(strCat(options.file, ": ends before it is complete; the complete atlases were ",
-                    options.output.folder.empty() ? "counted" : "saved"));
+                    (*outputs)->isEmpty() ? "counted" : "saved"));
   }
   return kExitDone;
 }

@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <string>
 
-#include "cli/atlas_files.h"
+#include "cli/atlas_outputs.h"
 #include "cli/command.h"
 
 namespace viewloom::cli {
 
 struct RecordedWatch {
   std::string file;
-  uint32_t count = 0;       // of atlases, from the first; 0 = all
-  AtlasFileOptions output;  // folder "" = none are written
+  uint32_t count = 0;  // of atlases, from the first; 0 = all
+  AtlasOutputOptions output;
 };
 
 // The exit code.

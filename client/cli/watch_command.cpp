@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/str_cat.h"
-#include "cli/atlas_files.h"
+#include "cli/atlas_outputs.h"
 #include "cli/display_options.h"
 #include "cli/eye_times.h"
 #include "cli/frame_feed.h"
@@ -36,21 +36,12 @@ struct WatchOptions {
   std::string folder;
   bool writes_views = false;
   std::string format = "jpg";
+  std::string video;  // "" = none is written
   uint32_t count = 0;
   bool fails_without_stream = false;
   bool has_no_retry = false;
   bool is_quiet = false;
 };
-
-std::string planeOf(const v1::AtlasLayout& layout) {
-  if (!layout.has_depth_codes()) {
-    return strCat("focal plane at ", formatNumber(layout.focal_distance_m(), 2), " m");
-  }
-  const v1::DepthCodes& codes = layout.depth_codes();
-  const std::string far =
-      codes.inv_z_far() < 0 ? "beyond infinity" : strCat(1 / codes.inv_z_far(), " m");
-  return strCat(codes.bits(), " bits of depth from ", 1 / codes.inv_z_near(), " m to ", far);
-}
 
 class WatchRun {
  public:
@@ -58,8 +49,10 @@ class WatchRun {
       : options_(options), common_(common), line_(options.is_quiet) {}
 
   int run() {
-    if (absl::Status folder = makeAtlasFolder(options_.folder); !folder.ok()) return usage(folder);
     if (!options_.recording.empty()) return runRecording();
+    auto outputs = AtlasOutputs::open(outputOptions(options_.stream), line_);
+    if (!outputs.ok()) return usage(outputs.status());
+    outputs_ = *std::move(outputs);
     const absl::StatusOr<v1::Display> display = makeDisplay(options_.display);
     if (!display.ok()) return usage(display.status());
     const absl::StatusOr<v1::AtlasEncoding> encoding = makeEncoding(options_.display.encoding);
@@ -71,8 +64,7 @@ class WatchRun {
     open.set_count(options_.count);
     open.set_wait_for_stream(!options_.fails_without_stream);
     if (absl::Status eyes = openEyes(*display); !eyes.ok()) return usage(eyes);
-    if (!options_.folder.empty()) files_.emplace(fileOptions(options_.stream));
-    const InterruptLimit limit;
+    outputs_->beginInterruptible();
     waiting_.emplace(line_, common_, options_.stream);
     watcher_ = std::make_unique<Watcher>(channelTo(common_), open, callbacks());
     // Only the line says how the server's clock stands: who sees none need not ask.
@@ -94,15 +86,16 @@ class WatchRun {
   int runRecording() const {
     const std::string name = std::filesystem::path(options_.recording).stem().string();
     return watchRecording(
-        {.file = options_.recording, .count = options_.count, .output = fileOptions(name)},
+        {.file = options_.recording, .count = options_.count, .output = outputOptions(name)},
         common_);
   }
 
-  AtlasFileOptions fileOptions(const std::string& stream) const {
-    return {.folder = options_.folder,
-            .stream = stream,
-            .writes_views = options_.writes_views,
-            .writes_png = options_.format == "png"};
+  AtlasOutputOptions outputOptions(const std::string& stream) const {
+    return {.files = {.folder = options_.folder,
+                      .stream = stream,
+                      .writes_views = options_.writes_views,
+                      .writes_png = options_.format == "png"},
+            .video = options_.video};
   }
 
   absl::Status openEyes(const v1::Display& display) {
@@ -140,18 +133,17 @@ class WatchRun {
                               layout.view_count(), " views of ", layout.tile_size().width(), "x",
                               layout.tile_size().height());
     if (grid == said_grid_) return;
-    line_.say(strCat(grid, ", ", planeOf(layout)));
+    line_.say(strCat(grid, ", ", planeText(layout)));
     said_grid_ = std::move(grid);
   }
 
   void take(const Atlas& atlas) {
-    if (files_ && failure().ok()) {
-      const absl::StatusOr<AtlasFiles::Written> written = files_->write(atlas);
-      if (written.ok()) line_.print(describe(*written));
-      if (!written.ok()) setFailure(written.status());
+    if (failure().ok()) {
+      const absl::Status written = outputs_->write(atlas, steadyNowNs());
+      if (!written.ok()) setFailure(written);
     }
     sayHeld(atlas.header);
-    if (const auto news = news_.note(atlas.header, planeOf(*atlas.layout))) line_.say(*news);
+    if (const auto news = news_.note(atlas.header, planeText(*atlas.layout))) line_.say(*news);
     const std::optional<MotionLatency> motion = reportMotion(atlas);
     std::lock_guard lock(mutex_);
     if (motion) motion_ = motion;
@@ -225,8 +217,12 @@ class WatchRun {
     while (!watcher_->waitEnded(kInterruptTick_ns)) {
     }
     if (watcher_->counts().atlases.whole > 0) line_.show(status());
-    if (const absl::Status failed = failure(); !failed.ok()) return reportError(failed, common_);
     const absl::Status ended = *watcher_->ended();
+    const absl::Status completed = outputs_->complete(steadyNowNs());
+    if (const absl::Status failed = failure(); !failed.ok()) return reportError(failed, common_);
+    if (!completed.ok() && (ended.ok() || absl::IsCancelled(ended))) {
+      return reportError(completed, common_);
+    }
     if (ended.ok()) return kExitDone;
     // Ctrl-C is the usual end of watching without a count.
     if (ended.code() == absl::StatusCode::kCancelled) {
@@ -249,7 +245,7 @@ class WatchRun {
   std::string said_grid_;  // the watcher's thread's own, as the next
   DefaultsNews news_;
   EyeTimes eye_times_;
-  std::optional<AtlasFiles> files_;  // the watcher's thread's own
+  std::unique_ptr<AtlasOutputs> outputs_;  // the watcher's thread's own, until it has ended
   std::optional<StreamWait> waiting_;
   std::unique_ptr<Watcher> watcher_;  // its callbacks use what stands above
   std::unique_ptr<ClockFollower> clock_;
@@ -269,6 +265,7 @@ RunCommand addWatchCommand(const usage::Command& app) {
       "  viewloom watch --rgbd 960x540 --screen 2 --count 1 --out .   a 2D+Z picture\n"
       "  viewloom watch --output-rate 60 --between interpolate   60 atlases/s of any stream\n"
       "  viewloom watch --from portrait.vlr --out quilts  save the quilts of a recording\n"
+      "  viewloom watch --from portrait.vlr --video clip.mp4   the same as a video\n"
       "  head-tracker | viewloom watch --display tracked.json --eyes - --out pairs");
   app.add("stream", options->stream, "Name of the stream").showDefault();
   const usage::Option from = app.add("--from", options->recording,
@@ -285,6 +282,9 @@ RunCommand addWatchCommand(const usage::Command& app) {
       app.add("--out", options->folder, "Save each atlas in this folder").valueName("FOLDER");
   app.addFlag("--views", options->writes_views, "Save single views instead of atlases").needs(out);
   app.add("--format", options->format, "Format of the files").oneOf({"jpg", "png"}).showDefault();
+  app.add("--video", options->video,
+          "Save the atlases as a video (MP4) for players of quilts; the name gets the layout")
+      .valueName("FILE");
   app.addFlag("--no-wait", options->fails_without_stream,
               "End if the server has no such stream, instead of waiting for it");
   app.addFlag("--no-retry", options->has_no_retry,

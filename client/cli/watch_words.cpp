@@ -20,6 +20,16 @@ std::string motionText(const MotionLatency& latency) {
                 ms(latency.made_s), ", back ", ms(latency.back_s), ")");
 }
 
+std::string planeText(const v1::AtlasLayout& layout) {
+  if (!layout.has_depth_codes()) {
+    return strCat("focal plane at ", formatNumber(layout.focal_distance_m(), 2), " m");
+  }
+  const v1::DepthCodes& codes = layout.depth_codes();
+  const std::string far =
+      codes.inv_z_far() < 0 ? "beyond infinity" : strCat(1 / codes.inv_z_far(), " m");
+  return strCat(codes.bits(), " bits of depth from ", 1 / codes.inv_z_near(), " m to ", far);
+}
+
 std::optional<std::string> DefaultsNews::note(const v1::AtlasHeader& header,
                                               const std::string& taken) {
   const uint64_t before = std::exchange(count_, header.defaults_count());

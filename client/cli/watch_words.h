@@ -16,6 +16,9 @@ std::string clockText(const ClockOffset& server);
 // "motion to picture 23.1 ms (to server 0.4, waiting 3.0, rendering 18.2, back 1.5)"
 std::string motionText(const MotionLatency& latency);
 
+// "focal plane at 2.00 m", or the depths that the codes of an RGBD display span.
+std::string planeText(const v1::AtlasLayout& layout);
+
 // Says when a stream's defaults, and with them a display, have changed.
 // Thread-safety: none; one owner.
 class DefaultsNews {

@@ -4,18 +4,20 @@
 #include <string>
 #include <utility>
 
+#include "base/str_cat.h"
 #include "lib/file_name_part.h"
 
 namespace viewloom {
 
-AtlasRecorder::AtlasRecorder(std::unique_ptr<RecordingWriter> writer, const Clock& clock)
-    : writer_(std::move(writer)), clock_(clock) {}
+AtlasRecorder::AtlasRecorder(std::filesystem::path path, std::unique_ptr<RecordingWriter> writer,
+                             const Clock& clock)
+    : path_(std::move(path)), writer_(std::move(writer)), clock_(clock) {}
 
 absl::StatusOr<std::unique_ptr<AtlasRecorder>> AtlasRecorder::create(
     const std::filesystem::path& path, const Clock& clock) {
   auto writer = RecordingWriter::create(path, RecordingKind::kAtlases);
   if (!writer.ok()) return writer.status();
-  return std::unique_ptr<AtlasRecorder>(new AtlasRecorder(*std::move(writer), clock));
+  return std::unique_ptr<AtlasRecorder>(new AtlasRecorder(path, *std::move(writer), clock));
 }
 
 absl::Status AtlasRecorder::add(const v1::StreamAtlasesResponse& message) {
@@ -32,6 +34,11 @@ absl::Status AtlasRecorder::add(const v1::StreamAtlasesResponse& message) {
   ++atlas_count_;
   writer_->markWhole();
   return absl::OkStatus();
+}
+
+std::string AtlasRecorder::summary() const {
+  return strCat(path_.string(), ": ", atlas_count_, atlas_count_ == 1 ? " atlas" : " atlases",
+                " recorded");
 }
 
 AtlasRecordingReader::AtlasRecordingReader(std::unique_ptr<RecordingReader> reader)

@@ -9,13 +9,14 @@
 #include "base/clock.h"
 #include "base/status.h"
 #include "lib/atlas_assembler.h"
+#include "recording/atlas_target.h"
 #include "recording/recording_reader.h"
 #include "recording/recording_writer.h"
 
 namespace viewloom {
 
 // Thread-safety: none; one owner at a time.
-class AtlasRecorder {
+class AtlasRecorder final : public AtlasTarget {
  public:
   // The clock must outlive the recorder. Errors as RecordingWriter.
   static absl::StatusOr<std::unique_ptr<AtlasRecorder>> create(const std::filesystem::path& path,
@@ -23,16 +24,18 @@ class AtlasRecorder {
 
   // A message that comes now. What begins and does not end is in the file only when something whole
   // follows it; readers discard it as displays do.
-  absl::Status add(const v1::StreamAtlasesResponse& message);
-  // Whether an atlas has begun and not ended.
-  bool isWithinAtlas() const { return is_within_atlas_; }
+  absl::Status add(const v1::StreamAtlasesResponse& message) override;
+  bool isWithinAtlas() const override { return is_within_atlas_; }
   // The same as RecordingWriter::complete.
-  absl::Status complete() { return writer_->complete(); }
+  absl::Status complete() override { return writer_->complete(); }
+  std::string summary() const override;
   uint64_t atlasCount() const { return atlas_count_; }
 
  private:
-  AtlasRecorder(std::unique_ptr<RecordingWriter> writer, const Clock& clock);
+  AtlasRecorder(std::filesystem::path path, std::unique_ptr<RecordingWriter> writer,
+                const Clock& clock);
 
+  const std::filesystem::path path_;
   const std::unique_ptr<RecordingWriter> writer_;
   const Clock& clock_;
   std::optional<int64_t> start_ns_;  // when the first message came

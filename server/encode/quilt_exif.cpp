@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "absl/strings/str_format.h"
+#include "display/quilt_json.h"
 
 namespace viewloom {
 namespace {
@@ -62,9 +62,10 @@ class TiffBytes {
 
 std::vector<uint8_t> quiltExif(const AtlasLayout& layout) {
   if (layout.suffix.empty()) return {};
-  const std::string json = absl::StrFormat(
-      R"({"LKGNumViews":%u,"LKGRows":%u,"LKGColumns":%u,"LKGAspect":%g,"LKGType":"quilt"})",
-      layout.views.size(), layout.rows, layout.columns, layout.aspect);
+  const std::string json = quiltJson({.view_count = uint32_t(layout.views.size()),
+                                      .columns = layout.columns,
+                                      .rows = layout.rows,
+                                      .aspect = layout.aspect});
   const size_t comment_bytes = kAsciiCode.size() + json.size();
   TiffBytes segment;
   segment.add16(kApp1Marker);

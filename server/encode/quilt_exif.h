@@ -10,8 +10,7 @@
 namespace viewloom {
 
 // An APP1 segment, marker and length included, that belongs right behind SOI: Exif with one
-// UserComment, {"LKGNumViews":48,"LKGRows":6,"LKGColumns":8,"LKGAspect":0.75,"LKGType":"quilt"}.
-// Empty for layouts that are no quilt.
+// UserComment, the text of quiltJson(). Empty for layouts that are no quilt.
 std::vector<uint8_t> quiltExif(const AtlasLayout& layout);
 
 }  // namespace viewloom

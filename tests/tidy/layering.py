@@ -95,7 +95,7 @@ LAYERS = {
     "client/lib": (["base", "certificates", "frame", "messages", "video"],
                    ["absl", "grpc", "protobuf", "zstd", "jpeg"]),
     "client/eyes": (["base"], ["absl", "nlohmann", "protobuf"]),
-    "client/recording": (["base", "lib"], ["absl", "protobuf"]),
+    "client/recording": (["base", "display", "lib", "mp4"], ["absl", "protobuf"]),
     "client/show": (["base", "frame/size.h", "calibration", "eyes", "lib", "files/file_bytes.h",
                      "text"],
                     ["absl", "epoxy", "grpc", "protobuf", "sdl"]),

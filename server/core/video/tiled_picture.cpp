@@ -87,7 +87,8 @@ absl::StatusOr<VideoTiles> fitVideoTiles(const AtlasTiles& atlas) {
     const double height = is_full ? atlas.tile_px.height : 2 * std::round(width * aspect / 2);
     const SizePx tile_px = {width, evenSide(height)};
     const SizePx picture_px = grid(atlas, tile_px);
-    const bool is_smaller = tile_px.height <= atlas.tile_px.height;
+    const bool is_smaller =
+        tile_px.width <= atlas.tile_px.width && tile_px.height <= atlas.tile_px.height;
     if (!is_smaller || !isWithinCodec(picture_px)) continue;
     if (picture_px.width < kVideoSideMin_px || picture_px.height < kVideoSideMin_px) break;
     return VideoTiles{.tile_px = tile_px, .picture_px = picture_px};
