@@ -63,6 +63,7 @@ HttpOptions httpOptions(const HttpConfig& config, uint32_t connection_count_max)
   options.allowed_hosts = absl::StrSplit(config.allowed_hosts, ',', absl::SkipEmpty());
   options.allowed_origins = absl::StrSplit(config.allowed_origins, ',', absl::SkipEmpty());
   options.connection_count_max = connection_count_max;
+  options.movie_count_max = config.videos_max;
   return options;
 }
 

@@ -123,7 +123,7 @@ absl::Status AtlasVideo::add(const Atlas& atlas, int64_t arrived_ns) {
   const int64_t shown_ns =
       header.shown_time_ns() != 0 ? header.shown_time_ns() : header.capture_time_ns();
   const int64_t time_ns = clock_.next(shown_ns, arrived_ns);
-  const auto coded = coder_->code(picture->samples.data(), time_ns);
+  const auto coded = coder_->code({.samples = picture->samples.data()}, time_ns);
   VIEWLOOM_RETURN_IF_ERROR(coded.status());
   return file_->add(*coded, time_ns);
 }

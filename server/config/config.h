@@ -20,6 +20,7 @@ struct HttpConfig {
   std::string address = "127.0.0.1:8080";
   std::string allowed_hosts;    // names separated by commas
   std::string allowed_origins;  // "https://studio.example", separated by commas
+  uint32_t videos_max = 4;      // live MP4 streams at once
 };
 
 // Without a token file and a JWKS file, everybody may do everything.

@@ -54,6 +54,9 @@ std::vector<Setting> addressSettings(bool& open, GrpcConfig& grpc, HttpConfig& h
       {"http.allowed_origins", "",
        "Pages of others that may watch and show pictures, such as https://studio.example",
        TextSetting{&http.allowed_origins, Form::kOrigins}},
+      {"http.videos_max", "",
+       "Most live videos (MP4) at once; each one is encoded by itself, which costs much CPU time",
+       CountSetting{&http.videos_max, 0, 64}},
   };
 }
 

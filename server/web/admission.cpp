@@ -23,11 +23,14 @@ constexpr const char* kLinkParameter = "link";
 constexpr int64_t kUsualLinkSeconds = 300;
 constexpr int kQrBytesMax = 2953;  // of version 40, level L
 
-// A link to a still does not open a stream, which goes on for as long as its token.
-LinkTarget targetOf(const WatchRequest& request, const QuiltAddressForm& form) {
+// A link to a still does not open a stream, which goes on for as long as its token, and a link to
+// motion JPEG opens no video, which costs more.
+LinkTarget targetOf(const QuiltAddress& address, const QuiltAddressForm& form) {
+  const WatchRequest& request = address.request;
+  const bool is_movie = address.extension == kMovieExtension;
   return {.stream = request.stream,
-          .display = strCat(form.root, "\n", displayKey(request.display), "\n",
-                            encodingKey(request.encoding))};
+          .display = strCat(form.root, is_movie ? kMovieExtension : "", "\n",
+                            displayKey(request.display), "\n", encodingKey(request.encoding))};
 }
 
 // Takes the parameter out; "" if there is none.
@@ -128,7 +131,7 @@ absl::StatusOr<MadeLink> makeLink(const WebContext& context, const HttpRequest& 
   VIEWLOOM_RETURN_IF_ERROR(admitStream(*caller, address->request.stream, context.streams));
   const absl::StatusOr<int64_t> seconds = linkSeconds(parameters);
   VIEWLOOM_RETURN_IF_ERROR(seconds.status());
-  const auto link = context.access.sign(*caller, targetOf(address->request, *form), *seconds);
+  const auto link = context.access.sign(*caller, targetOf(*address, *form), *seconds);
   VIEWLOOM_RETURN_IF_ERROR(link.status());
   const std::string& plain = address->redirect.empty() ? target->second : address->redirect;
   return MadeLink{.url = withParameter(linkable(plain), kLinkParameter, link->signature),
@@ -163,8 +166,7 @@ absl::StatusOr<AdmittedPicture> admitPicture(const WebContext& context, const Ht
   absl::StatusOr<QuiltAddress> address = parseQuiltAddress(url, form);
   VIEWLOOM_RETURN_IF_ERROR(address.status());
   if (!link.empty()) {
-    caller =
-        context.access.admitLink(form.root, request.peer, link, targetOf(address->request, form));
+    caller = context.access.admitLink(form.root, request.peer, link, targetOf(*address, form));
     VIEWLOOM_RETURN_IF_ERROR(caller.status());
     if (!address->redirect.empty()) {
       address->redirect = withParameter(address->redirect, kLinkParameter, link);

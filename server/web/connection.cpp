@@ -9,7 +9,7 @@
 #include "base/send_queue.h"
 #include "web/admission.h"
 #include "web/http_wire.h"
-#include "web/multipart_stream.h"
+#include "web/live_answer.h"
 #include "web/once_ended.h"
 #include "web/session.h"
 #include "web/viewer.h"
@@ -227,10 +227,10 @@ net::awaitable<void> Connection::watch(Parser& parser, const HttpRequest& reques
 
 net::awaitable<bool> Connection::play(HttpReply& reply) {
   Caller& caller = reply.live->caller;
-  std::shared_ptr<MultipartStream> player;
+  std::shared_ptr<LiveStream> player;
   const absl::Status status = unlessThrown([&]() -> absl::Status {
     VIEWLOOM_RETURN_IF_ERROR(caller.stay());
-    player = std::make_shared<MultipartStream>(context_, caller, strand_, caller.shareName(host_));
+    player = makeLiveStream(context_, *reply.live, strand_, caller.shareName(host_));
     return player->subscribe(reply.live->request);
   });
   if (!status.ok()) {

@@ -12,6 +12,7 @@
 
 #include "base/byte_pool.h"
 #include "base/status.h"
+#include "mp4/movie_coder.h"
 #include "web/watch_request.h"
 
 namespace viewloom {
@@ -29,6 +30,7 @@ struct HttpReply {
   struct Live {
     WatchRequest request;
     Caller caller;
+    std::optional<MovieCoding> movie{};  // none = motion JPEG
   };
   std::optional<Live> live{};
 };

@@ -121,7 +121,7 @@ QuiltAddressForm stillForm() {
 }
 
 QuiltAddressForm streamForm() {
-  return {.root = std::string(kPlayers), .extensions = {".mjpg"}};
+  return {.root = std::string(kPlayers), .extensions = {".mjpg", std::string(kMovieExtension)}};
 }
 
 absl::StatusOr<QuiltAddress> parseQuiltAddress(const Url& url, const QuiltAddressForm& form) {

@@ -20,10 +20,13 @@ struct QuiltAddressForm {
   std::vector<std::string> extensions;  // ".jpg"
 };
 
+// Ends the address of a live video.
+inline constexpr std::string_view kMovieExtension = ".mp4";
+
 // Ends the address of the layout of a still.
 inline constexpr std::string_view kLayoutExtension = ".json";
 
-// The addresses of stills and of motion JPEG.
+// The addresses of stills, and of motion JPEG and live videos.
 QuiltAddressForm stillForm();
 QuiltAddressForm streamForm();
 

@@ -14,7 +14,7 @@
 #include "base/str_cat.h"
 #include "web/admission.h"
 #include "web/catalog_json.h"
-#include "web/multipart_stream.h"
+#include "web/live_answer.h"
 #include "web/page_assets.h"
 #include "web/session.h"
 #include "web/still.h"

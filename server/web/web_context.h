@@ -19,6 +19,7 @@
 #include "tls/tls_material.h"
 #include "web/host_policy.h"
 #include "web/message_pace.h"
+#include "web/movie_threads.h"
 
 namespace viewloom {
 
@@ -35,6 +36,8 @@ struct HttpOptions {
   // Certificate and key of new connections, asked from any thread; none = no encryption.
   std::function<TlsMaterialPtr()> tls{};
 
+  uint32_t movie_count_max = 4;     // live videos
+  uint32_t movie_thread_count = 1;  // that encode them
   uint32_t header_bytes_max = 8192;
   uint32_t message_bytes_max = 128 << 10;  // of a viewer's text message: a calibration fits
   MessageRate message_rate{};              // of a viewer; a flood is read no faster
@@ -61,6 +64,8 @@ struct WebContext {
   AccessControl& access;
   MemoryBudget& memory;
   std::atomic<bool> draining{false};
+  std::atomic<uint32_t> movie_count{0};                    // live videos
+  MovieThreads movie_threads{options.movie_thread_count};  // last: they use the rest
 };
 
 }  // namespace viewloom

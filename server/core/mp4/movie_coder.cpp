@@ -30,8 +30,9 @@ uint64_t MovieCoder::memoryBytes(const MovieCoding& coding) {
 MovieCoder::MovieCoder(const MovieCoding& coding, std::unique_ptr<VideoEncoder> encoder)
     : picture_(coding.atlas, coding.video), encoder_(std::move(encoder)) {}
 
-absl::StatusOr<std::span<const uint8_t>> MovieCoder::code(const uint8_t* rgb, int64_t time_ns) {
-  newest_ = picture_.make(rgb);
+absl::StatusOr<std::span<const uint8_t>> MovieCoder::code(const AtlasColors& colors,
+                                                          int64_t time_ns) {
+  newest_ = picture_.make(colors);
   return codeAgain(time_ns);
 }
 

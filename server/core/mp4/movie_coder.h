@@ -28,10 +28,10 @@ class MovieCoder {
   // Bytes that one holds.
   static uint64_t memoryBytes(const MovieCoding& coding);
 
-  // Codes an atlas, uint8_t[atlas height][atlas width][3] R, G, B. At least every two seconds comes
+  // Codes an atlas. At least every two seconds comes
   // a picture that refers to no other, so that players can seek. `time_ns`: since the first one.
   // The access unit in Annex B format is valid until the next call. Errors as VideoEncoder::encode.
-  absl::StatusOr<std::span<const uint8_t>> code(const uint8_t* rgb, int64_t time_ns);
+  absl::StatusOr<std::span<const uint8_t>> code(const AtlasColors& colors, int64_t time_ns);
   // Codes the last atlas once more. Expects one.
   absl::StatusOr<std::span<const uint8_t>> codeAgain(int64_t time_ns);
 

@@ -37,7 +37,7 @@ std::string text(SizePx size_px) {
   return strCat(size_px.width, "x", size_px.height, " px");
 }
 
-// Two rows of RGB as samples of 4:2:0, through the transform of JPEG files.
+// Two rows of colours as samples of 4:2:0, through the transform of JPEG files.
 struct RowPair {
   const uint8_t* upper;
   const uint8_t* lower;
@@ -45,6 +45,7 @@ struct RowPair {
   uint8_t* lower_y;
   uint8_t* cb;
   uint8_t* cr;
+  uint32_t channel_count;
 
   void convert(uint32_t width_px) const {
     for (uint32_t x = 0; x < width_px; x += 2) {
@@ -53,7 +54,7 @@ struct RowPair {
       uint32_t cr_sum = 0;
       for (const auto& [row, y] : {Line{upper, upper_y}, Line{lower, lower_y}}) {
         for (const uint32_t at : {x, next}) {
-          const uint8_t* const px = row + size_t{3} * at;
+          const uint8_t* const px = row + size_t{channel_count} * at;
           const auto red = float(px[0]), green = float(px[1]), blue = float(px[2]);
           y[at] = uint8_t(abi::lumaOf(red, green, blue));
           cb_sum += abi::cbOf(red, green, blue);
@@ -67,7 +68,7 @@ struct RowPair {
 
  private:
   struct Line {
-    const uint8_t* rgb;
+    const uint8_t* colors;
     uint8_t* y;
   };
 };
@@ -131,10 +132,10 @@ uint64_t TiledPicture::memoryBytes(const AtlasTiles& atlas, const VideoTiles& vi
   return 2 * (atlas.tile_px.area() + video.picture_px.area()) + between_bytes;
 }
 
-VideoPicture TiledPicture::make(const uint8_t* rgb) {
+VideoPicture TiledPicture::make(const AtlasColors& colors) {
   for (uint32_t row = 0; row < atlas_.rows; ++row) {
     for (uint32_t column = 0; column < atlas_.columns; ++column) {
-      takeTile(rgb, column * atlas_.tile_px.width,
+      takeTile(colors, column * atlas_.tile_px.width,
                atlas_.padding_top_px + row * atlas_.tile_px.height);
       placeTile(column * video_.tile_px.width, row * video_.tile_px.height);
     }
@@ -148,11 +149,12 @@ VideoPicture TiledPicture::make(const uint8_t* rgb) {
           .chroma_stride_bytes = chroma_stride};
 }
 
-void TiledPicture::takeTile(const uint8_t* rgb, uint32_t left_px, uint32_t top_px) {
+void TiledPicture::takeTile(const AtlasColors& colors, uint32_t left_px, uint32_t top_px) {
   const SizePx size_px = tile_.size_px;
-  const size_t stride = size_t{3} * atlas_.atlas_px.width;
+  const size_t stride = size_t{colors.channel_count} * atlas_.atlas_px.width;
   const size_t chroma_width = tile_.chromaSize().width;
-  const uint8_t* const first = rgb + top_px * stride + size_t{3} * left_px;
+  const uint8_t* const first =
+      colors.samples + top_px * stride + size_t{colors.channel_count} * left_px;
   for (uint32_t y = 0; y < size_px.height; y += 2) {
     const uint32_t next = std::min(y + 1, size_px.height - 1);
     RowPair{.upper = first + y * stride,
@@ -160,7 +162,8 @@ void TiledPicture::takeTile(const uint8_t* rgb, uint32_t left_px, uint32_t top_p
             .upper_y = &tile_.y[size_t{y} * size_px.width],
             .lower_y = &tile_.y[size_t{next} * size_px.width],
             .cb = &tile_.cb[y / 2 * chroma_width],
-            .cr = &tile_.cr[y / 2 * chroma_width]}
+            .cr = &tile_.cr[y / 2 * chroma_width],
+            .channel_count = colors.channel_count}
         .convert(size_px.width);
   }
 }

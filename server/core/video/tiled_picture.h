@@ -43,6 +43,13 @@ absl::StatusOr<VideoTiles> fitVideoTiles(const AtlasTiles& atlas);
 // "the atlas of 3360x3360 px is scaled to 3072x3072 px, ...". Empty where tiles keep their size.
 std::string scalingNote(const AtlasTiles& atlas, const VideoTiles& video);
 
+// Colours of an atlas: uint8_t[height][width][channel_count] R, G, B, and with four channels one
+// that is ignored. Borrowed.
+struct AtlasColors {
+  const uint8_t* samples = nullptr;
+  uint32_t channel_count = 3;  // or 4
+};
+
 // Makes pictures of atlases of one form. Thread-safety: none.
 class TiledPicture {
  public:
@@ -52,8 +59,8 @@ class TiledPicture {
   // Bytes that one holds.
   static uint64_t memoryBytes(const AtlasTiles& atlas, const VideoTiles& video);
 
-  // rgb: uint8_t[atlas height][atlas width][3]. The result is valid until the next call.
-  VideoPicture make(const uint8_t* rgb);
+  // The result is valid until the next call.
+  VideoPicture make(const AtlasColors& colors);
 
  private:
   // Planes of one tile of the atlas, or of the whole picture.
@@ -67,7 +74,7 @@ class TiledPicture {
     std::vector<uint8_t> cr;
   };
 
-  void takeTile(const uint8_t* rgb, uint32_t left_px, uint32_t top_px);
+  void takeTile(const AtlasColors& colors, uint32_t left_px, uint32_t top_px);
   void placeTile(uint32_t left_px, uint32_t top_px);
 
   const AtlasTiles atlas_;

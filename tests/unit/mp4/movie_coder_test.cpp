@@ -26,7 +26,7 @@ TEST(MovieCoder, beginsAnewEveryTwoSeconds) {
   const std::vector<uint8_t> rgb(64 * 48 * 3, 90);
   std::vector<bool> syncs;
   for (const int64_t time_ns : {0 * kMs, 100 * kMs, 1999 * kMs, 2000 * kMs, 2100 * kMs}) {
-    const auto unit = (*coder)->code(rgb.data(), time_ns);
+    const auto unit = (*coder)->code({.samples = rgb.data()}, time_ns);
     ASSERT_TRUE(unit.ok()) << unit.status();
     syncs.push_back(isSync(*unit));
     const auto picture = decoder->decode(*unit, {64, 48});

@@ -72,7 +72,8 @@ TEST(TiledPicture, keepsTilesApart) {
     const VideoTiles tiles = *fitVideoTiles(atlas);
     const std::vector<uint8_t> greys = {0, 40, 80, 120, 160, 255};
     TiledPicture picture(atlas, tiles);
-    const VideoPicture made = picture.make(flatTiles(atlas, greys).data());
+    const std::vector<uint8_t> colors = flatTiles(atlas, greys);
+    const VideoPicture made = picture.make({.samples = colors.data()});
     EXPECT_EQ(made.size_px, tiles.picture_px);
     for (uint32_t y = 0; y < made.size_px.height; ++y) {
       for (uint32_t x = 0; x < made.size_px.width; ++x) {
@@ -87,13 +88,16 @@ TEST(TiledPicture, keepsTilesApart) {
 
 TEST(TiledPicture, hasTheColorsOfJpegFiles) {
   const AtlasTiles atlas = {.atlas_px = {16, 16}, .tile_px = {16, 16}};
-  std::vector<uint8_t> rgb(16 * 16 * 3, 0);
-  for (size_t i = 0; i < rgb.size(); i += 3) rgb[i] = 200;
-  TiledPicture picture(atlas, *fitVideoTiles(atlas));
-  const VideoPicture made = picture.make(rgb.data());
-  EXPECT_EQ(made.y[17], 60);   // 0.299 * 200
-  EXPECT_EQ(made.cb[9], 94);   // 128 - 0.1687 * 200
-  EXPECT_EQ(made.cr[9], 228);  // 128 + 0.5 * 200
+  for (const uint32_t channel_count : {3, 4}) {
+    std::vector<uint8_t> colors(16 * 16 * channel_count, 0);
+    for (size_t i = 0; i < colors.size(); i += channel_count) colors[i] = 200;
+    TiledPicture picture(atlas, *fitVideoTiles(atlas));
+    const VideoPicture made =
+        picture.make({.samples = colors.data(), .channel_count = channel_count});
+    EXPECT_EQ(made.y[17], 60);   // 0.299 * 200
+    EXPECT_EQ(made.cb[9], 94);   // 128 - 0.1687 * 200
+    EXPECT_EQ(made.cr[9], 228);  // 128 + 0.5 * 200
+  }
 }
 
 // A smooth wave is the same after scaling, at its new places.
