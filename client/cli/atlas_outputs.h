@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `viewloom watch` writes of the atlases: files in a folder, a video, or nothing.
+// Outputs of `viewloom watch`: files in a folder, a video, or nothing.
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,7 @@ class AtlasTarget {
   // Puts the file in its place, also after add() failed. FAILED_PRECONDITION when nothing whole
   // came, or the file cannot be written. Call once.
   virtual absl::Status complete() = 0;
-  // What is recorded, for users: "FILE: 12 atlases recorded".
+  // Result for users: "FILE: 12 atlases recorded".
   virtual std::string summary() const = 0;
 };
 

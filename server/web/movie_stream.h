@@ -50,7 +50,7 @@ class MovieStream final : public LiveStream {
   net::awaitable<void> writeEnd(ErrorCode& error) override;
   // Makes part_ of the atlas; of the last one again if it is null.
   net::awaitable<void> makePart(AtlasPtr atlas);
-  // What follows runs on a movie thread, while the strand waits for is_made_.
+  // The next three run on a movie thread, while the strand waits for is_made_.
   absl::Status encode(const EncodedAtlas* atlas);
   absl::StatusOr<std::span<const uint8_t>> code(const EncodedAtlas* atlas, int64_t time_ns);
   void appendFragment(const AvcSample& sample, int64_t time_ns);

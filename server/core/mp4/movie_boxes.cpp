@@ -38,7 +38,7 @@ void addIdentityMatrix(BoxWriter& out) {
 void writeConfiguration(BoxWriter& out, const AvcTrack& track) {
   constexpr uint8_t kFirstProfileWithFormat = 100;  // High: it also tells chroma and depth
   constexpr uint8_t kReserved = 0xFC;
-  const auto& [sequence, picture] = track.sets;
+  const AvcParameterSets& sets = track.sets;
   const H264Parameters& parameters = track.parameters;
   out.addBox("avcC", [&] {
     out.add8(1);
@@ -47,11 +47,11 @@ void writeConfiguration(BoxWriter& out, const AvcTrack& track) {
     out.add8(parameters.level);
     out.add8(kReserved | 3);  // lengths of 4 bytes
     out.add8(0xE0 | 1);       // one sequence parameter set
-    out.add16(uint16_t(sequence.size()));
-    out.addBytes(sequence);
+    out.add16(uint16_t(sets.sequence.size()));
+    out.addBytes(sets.sequence);
     out.add8(1);
-    out.add16(uint16_t(picture.size()));
-    out.addBytes(picture);
+    out.add16(uint16_t(sets.picture.size()));
+    out.addBytes(sets.picture);
     if (parameters.profile < kFirstProfileWithFormat) return;
     out.add8(kReserved | 1);  // 4:2:0
     out.add8(0xF8);           // 8 bits of luma

@@ -70,6 +70,11 @@ TEST(CommandLine, refusesOutputsThatAreNoRegularFilesBeforeItDoesAnything) {
   EXPECT_THAT(refusal(none + "record --out /tmp"), HasSubstr("/tmp: is a folder"));
   EXPECT_THAT(refusal(none + "publish --synthetic --record /dev/null"), HasSubstr("is a device"));
   EXPECT_THAT(refusal(none + "watch --out /dev/null"), HasSubstr("accepted is a folder"));
+  EXPECT_THAT(refusal(none + "watch --video /none/clip.mp4"),
+              HasSubstr("its folder must exist and take new files"));
+  EXPECT_THAT(refusal(none + "watch --video clip.avi"),
+              HasSubstr("accepted is a name that ends in .mp4"));
+  EXPECT_THAT(refusal(none + "record --out /none/clip.mp4"), HasSubstr("/none/clip.mp4: cannot"));
   EXPECT_THAT(refusal("inspect none.png --picture /dev/null"), HasSubstr("is a device"));
 }
 
@@ -129,6 +134,26 @@ TEST_F(CommandsWithServer, namesTheFilesItWritesAndNeverWritesThemAgain) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_ / "out"),
                           std::filesystem::directory_iterator()),
             2);
+}
+
+TEST_F(CommandsWithServer, writesVideosThatSayTheirLayout) {
+  const auto publisher = publishOne();
+  const std::string quilt = " s --columns 2 --rows 1 --size 64x32 --count 1 ";
+  const std::string folder = folder_.string();
+  for (const std::string& command :
+       {"watch" + quilt + "--video " + folder + "/a.mp4",
+        "record" + quilt + "--out " + folder + "/b.mp4",
+        "record" + quilt + "--out " + folder + "/c.vlr",
+        "watch --from " + folder + "/c.vlr --video " + folder + "/c.mp4"}) {
+    const Answer answer = answerTo(command);
+    EXPECT_EQ(answer.exit_code, 0) << answer.text;
+    if (command.ends_with(".mp4")) {
+      EXPECT_THAT(answer.text, HasSubstr("1 picture of 64x32 px"));
+    }
+  }
+  for (const char* name : {"a_qs2x1a1.mp4", "b_qs2x1a1.mp4", "c_qs2x1a1.mp4"}) {
+    EXPECT_GT(std::filesystem::file_size(folder_ / name), 500U) << name;
+  }
 }
 
 TEST_F(CommandsWithServer, keepsWhatWasRecordedWhenTheDiskIsFull) {
