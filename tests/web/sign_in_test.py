@@ -123,9 +123,12 @@ class SignInTest(TokenCase):
         time.sleep(1.5)
         self.assertEqual(self.status(link), 401)
 
-    def play_by_link(self, seconds):
-        target = quote("/stream/painted_qs4x2a1.mjpg?width=320&height=160")
-        link = self.ask(f"/api/link?target={target}&seconds={seconds}", self.watch).json()["url"]
+    def link_to_player(self, seconds, extension):
+        target = quote(f"/stream/painted_qs4x2a1.{extension}?width=320&height=160")
+        return self.ask(f"/api/link?target={target}&seconds={seconds}", self.watch).json()["url"]
+
+    def play_by_link(self, seconds, extension="mjpg"):
+        link = self.link_to_player(seconds, extension)
         stream = Stream(self.server.port)
         self.addCleanup(stream.close)
         stream.send(request_bytes(self.server.port, link))
@@ -140,6 +143,15 @@ class SignInTest(TokenCase):
         stream = self.play_by_link(3600)
         self.tokens.revoke("watch")
         self.assertTrue(stream.file.read().endswith(b"\r\n--viewloom--\r\n"))
+
+    def test_a_video_ends_with_its_link(self):
+        self.assertEqual(self.play_by_link(2, "mp4").file.read()[4:8], b"ftyp")
+
+    def test_a_link_to_motion_jpeg_opens_no_video(self):
+        link = self.link_to_player(60, "mjpg")
+        self.assertEqual(self.status(link, method="HEAD"), 200)
+        self.assertEqual(self.status(link.replace(".mjpg", ".mp4"), method="HEAD"), 401)
+        self.assertEqual(self.status(self.link_to_player(60, "mp4"), method="HEAD"), 200)
 
     def test_a_code_leads_to_this_server_only(self):
         target = quote("/stream/painted/portrait?width=800&height=600")
