@@ -38,8 +38,8 @@ class VideoFiles(unittest.TestCase):
         publisher = Publisher(server)
         cls.addClassCleanup(publisher.stop)
         answer = subprocess.run(
-            [CLIENT, "--server", f"127.0.0.1:{server.grpc_port}", "watch", "scene", "--columns", "4",
-             "--rows", "2", "--size", "640x480", "--count", str(COUNT), "--video",
+            [CLIENT, "--server", f"127.0.0.1:{server.grpc_port}", "watch", "scene", "--columns",
+             "4", "--rows", "2", "--size", "640x480", "--count", str(COUNT), "--video",
              os.path.join(cls.folder.name, "clip.mp4")],
             capture_output=True, text=True, timeout=TIMEOUT_S, check=False)
         assert answer.returncode == 0, answer.stderr
