@@ -5,10 +5,10 @@
 
 namespace viewloom {
 
-std::string quiltJson(const QuiltShape& shape) {
+std::string quiltJson(const QuiltTags& tags) {
   return absl::StrFormat(
       R"({"LKGNumViews":%u,"LKGRows":%u,"LKGColumns":%u,"LKGAspect":%g,"LKGType":"quilt"})",
-      shape.view_count, shape.rows, shape.columns, shape.aspect);
+      tags.view_count, tags.rows, tags.columns, tags.aspect);
 }
 
 }  // namespace viewloom

@@ -7,7 +7,7 @@
 
 namespace viewloom {
 
-struct QuiltShape {
+struct QuiltTags {
   uint32_t view_count = 0;
   uint32_t columns = 0;
   uint32_t rows = 0;
@@ -15,6 +15,6 @@ struct QuiltShape {
 };
 
 // {"LKGNumViews":48,"LKGRows":6,"LKGColumns":8,"LKGAspect":0.75,"LKGType":"quilt"}
-std::string quiltJson(const QuiltShape& shape);
+std::string quiltJson(const QuiltTags& tags);
 
 }  // namespace viewloom
