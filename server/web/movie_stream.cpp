@@ -48,7 +48,8 @@ absl::StatusOr<MovieCoding> planMovie(const WatchRequest& request) {
   EncodingSpec video = request.encoding;
   video.color = BandEncoding::kH264;
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(validateEncodingOf(request.display, video), "encoding"));
-  MovieCoding coding{.atlas = tilesOf(tileGridOf(request.display)), .qp = video.video_qp};
+  MovieCoding coding{.atlas = tilesOf(tileGridOf(request.display)),
+                     .qp = matchedVideoQp(video.jpeg_quality)};
   const absl::StatusOr<VideoTiles> tiles = fitVideoTiles(coding.atlas);
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(tiles.status(), "display"));
   coding.video = *tiles;

@@ -105,7 +105,8 @@ absl::StatusOr<WatchRequest> requestOf(const AddressParts& parts) {
   VIEWLOOM_RETURN_IF_ERROR(checkUntracked(request->display));
   if (request->encoding.color == BandEncoding::kJpeg) return request;
   return invalidField("encoding.color",
-                      "stills and motion JPEG are JPEG; accepted here is BAND_ENCODING_JPEG");
+                      "stills, motion JPEG and live videos are made of JPEG; accepted here is "
+                      "BAND_ENCODING_JPEG");
 }
 
 // "?width=800&height=600", or nothing.
