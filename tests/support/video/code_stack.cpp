@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Codes views as video, for tests and measurements of clients without a server.
+// Arguments: view width, view height, view count, quantisation (20..51). Standard input: atlases of
+// views, each uint8_t[view][y][x][3] R, G, B. For each atlas it writes a line of JSON and the
+// access units: {"video": ..., "picture_bytes": [...]}, where video has the fields of proto
+// VideoStack.
+#include <algorithm>
+#include <cstdlib>
+#include <iostream>
+#include <vector>
+
+#include "base/str_cat.h"
+#include "display/video_stack.h"
+#include "shared/ycbcr.h"
+#include "video/h264_parameters.h"
+#include "video/openh264_encoder.h"
+
+namespace viewloom::test {
+namespace {
+
+struct Views {
+  SizePx view_px;
+  std::vector<uint8_t> rgb;
+
+  const uint8_t* pixel(uint32_t view, uint32_t x, uint32_t y) const {
+    const uint32_t column = std::min(x, view_px.width - 1);
+    const uint32_t row = std::min(y, view_px.height - 1);
+    return &rgb[3 * ((size_t{view} * view_px.height + row) * view_px.width + column)];
+  }
+};
+
+// One picture; black where no view is.
+class Planes {
+ public:
+  explicit Planes(SizePx size_px)
+      : size_px_(size_px),
+        luma_(size_px.area(), 0),
+        cb_(size_px.area() / 4, 128),
+        cr_(size_px.area() / 4, 128) {}
+
+  // Pixels beyond the view repeat its edge.
+  void put(const Views& views, uint32_t view, SizePx cell_px, const StackCell& cell) {
+    for (uint32_t y = 0; y < cell_px.height; y += 2) {
+      for (uint32_t x = 0; x < cell_px.width; x += 2) {
+        putBlock(views, view, x, y, cell.column * cell_px.width, cell.row * cell_px.height);
+      }
+    }
+  }
+  VideoPicture video() const {
+    return {.size_px = size_px_,
+            .y = luma_.data(),
+            .cb = cb_.data(),
+            .cr = cr_.data(),
+            .y_stride_bytes = size_px_.width,
+            .chroma_stride_bytes = size_px_.width / 2};
+  }
+
+ private:
+  void putBlock(const Views& views, uint32_t view, uint32_t x, uint32_t y, uint32_t left,
+                uint32_t top) {
+    uint32_t cb_sum = 0;
+    uint32_t cr_sum = 0;
+    for (const uint32_t row : {y, y + 1}) {
+      for (const uint32_t column : {x, x + 1}) {
+        const uint8_t* const rgb = views.pixel(view, column, row);
+        luma_[size_t{top + row} * size_px_.width + left + column] =
+            uint8_t(abi::lumaOf(rgb[0], rgb[1], rgb[2]));
+        cb_sum += abi::cbOf(rgb[0], rgb[1], rgb[2]);
+        cr_sum += abi::crOf(rgb[0], rgb[1], rgb[2]);
+      }
+    }
+    const size_t at = size_t{(top + y) / 2} * (size_px_.width / 2) + (left + x) / 2;
+    cb_[at] = uint8_t(abi::meanChroma(cb_sum, x / 2));
+    cr_[at] = uint8_t(abi::meanChroma(cr_sum, x / 2));
+  }
+
+  SizePx size_px_;
+  std::vector<uint8_t> luma_;
+  std::vector<uint8_t> cb_;
+  std::vector<uint8_t> cr_;
+};
+
+std::string sizeText(SizePx size_px) {
+  return strCat("{\"width\":", size_px.width, ",\"height\":", size_px.height, "}");
+}
+
+std::string headerOf(const VideoStack& stack, const std::vector<std::vector<uint8_t>>& units) {
+  const auto parameters = h264ParametersOf(units.front());
+  std::string sizes;
+  for (const auto& unit : units) sizes += strCat(sizes.empty() ? "" : ",", unit.size());
+  return strCat("{\"video\":{\"picture_count\":", stack.picture_count,
+                ",\"picture_size\":", sizeText(stack.pictureSize()), ",\"columns\":", stack.columns,
+                ",\"rows\":", stack.rows, ",\"cell_size\":", sizeText(stack.cell_px),
+                ",\"codec_string\":\"", h264CodecString(*parameters),
+                "\",\"color_matrix\":\"BT601\",\"full_range\":true},\"picture_bytes\":[", sizes,
+                "]}\n");
+}
+
+absl::Status writeAtlas(const Views& views, const VideoStack& stack, VideoEncoder& encoder) {
+  std::vector<std::vector<uint8_t>> units(stack.picture_count);
+  for (uint32_t picture = 0; picture < stack.picture_count; ++picture) {
+    Planes planes(stack.pictureSize());
+    for (uint32_t view = picture; view < stack.view_count; view += stack.picture_count) {
+      planes.put(views, view, stack.cell_px, stack.cellOf(view));
+    }
+    const Reference reference = picture == 0 ? Reference::kNone : Reference::kPictureBefore;
+    VIEWLOOM_RETURN_IF_ERROR(encoder.encode(planes.video(), reference, units[picture]));
+  }
+  std::cout << headerOf(stack, units);
+  for (const auto& unit : units) {
+    std::cout.write(reinterpret_cast<const char*>(unit.data()), std::streamsize(unit.size()));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status codeAll(SizePx view_px, uint32_t view_count, uint32_t qp) {
+  const absl::StatusOr<VideoStack> stack = planVideoStack(view_px, view_count);
+  VIEWLOOM_RETURN_IF_ERROR(stack.status());
+  auto encoder = OpenH264Encoder::make({.size_px = stack->pictureSize(), .qp = qp});
+  VIEWLOOM_RETURN_IF_ERROR(encoder.status());
+  Views views{.view_px = view_px, .rgb = std::vector<uint8_t>(view_px.area() * 3 * view_count)};
+  while (
+      std::cin.read(reinterpret_cast<char*>(views.rgb.data()), std::streamsize(views.rgb.size()))) {
+    VIEWLOOM_RETURN_IF_ERROR(writeAtlas(views, *stack, **encoder));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+}  // namespace viewloom::test
+
+int main(int argc, char** argv) {
+  if (argc != 5) {
+    std::cerr << "code_stack: expected are view width, view height, view count and quantisation\n";
+    return 2;
+  }
+  const auto number = [argv](int index) { return uint32_t(std::atoi(argv[index])); };
+  const absl::Status status = viewloom::test::codeAll({number(1), number(2)}, number(3), number(4));
+  if (!status.ok()) std::cerr << "code_stack: " << status << "\n";
+  return status.ok() ? 0 : 1;
+}
