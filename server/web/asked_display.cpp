@@ -28,7 +28,7 @@ constexpr size_t kJsonBytesMax = size_t{1} << 20;
 constexpr std::array kByHand = {"preset", "width", "height"};
 
 absl::Status checkKnown(const QueryParameters& parameters) {
-  std::vector<std::string> names = {"stream", "display", "encoding"};
+  std::vector<std::string> names = {"stream", "display", "encoding", "accepted"};
   names.insert(names.end(), kByHand.begin(), kByHand.end());
   for (const auto& [name, value] : parameters) {
     if (std::find(names.begin(), names.end(), name) != names.end()) continue;
@@ -47,6 +47,19 @@ absl::Status readMessage(const QueryParameters& parameters, const char* name, Me
   const auto found = parameters.find(name);
   if (found == parameters.end()) return absl::OkStatus();
   return withFieldPrefix(messageFromJson(found->second, kJsonBytesMax, message), name);
+}
+
+// None when the parameter is not given.
+absl::StatusOr<AcceptedEncodings> readAccepted(const QueryParameters& parameters) {
+  v1::OpenDisplay opening;
+  if (const auto found = parameters.find("accepted"); found != parameters.end()) {
+    // JSON of protobuf has lists as fields of messages only.
+    const absl::Status status =
+        messageFromJson(strCat("{\"accepted\": ", found->second, "}"), kJsonBytesMax, opening);
+    if (!status.ok() && fieldOf(status).empty()) return withFieldPrefix(status, "accepted");
+    VIEWLOOM_RETURN_IF_ERROR(status);
+  }
+  return opening.accepted();
 }
 
 // 0 when the parameter is not given.
@@ -106,6 +119,9 @@ absl::StatusOr<AskedDisplay> askedDisplay(const QueryParameters& parameters) {
     asked.stream = stream->second;
   }
   VIEWLOOM_RETURN_IF_ERROR(readMessage(parameters, "encoding", asked.encoding));
+  absl::StatusOr<AcceptedEncodings> accepted = readAccepted(parameters);
+  VIEWLOOM_RETURN_IF_ERROR(accepted.status());
+  asked.accepted = *std::move(accepted);
   if (!parameters.contains("display")) {
     VIEWLOOM_RETURN_IF_ERROR(readByHand(parameters, asked.display));
     return asked;

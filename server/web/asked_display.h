@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/status.h"
+#include "messages/accepted_encoding.h"
 #include "viewloom/v1/display_service.pb.h"
 #include "web/url.h"
 
@@ -15,11 +16,13 @@ struct AskedDisplay {
   std::string stream;
   v1::Display display;
   v1::AtlasEncoding encoding;
+  AcceptedEncodings accepted;  // as in proto OpenDisplay
 };
 
 // Parameters of a URL:
 //   stream                    its name
 //   display, encoding         messages of these names as JSON (proto Display, AtlasEncoding)
+//   accepted                  a list of proto AcceptedEncoding as JSON
 //   preset, width, height     for hands, instead of `display`: a named device ("portrait" where
 //                             nothing says otherwise), and the size of what is sent
 // INVALID_ARGUMENT with the parameter, or the field inside the message, as the field

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/watch_request.h"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "base/str_cat.h"
 #include "display/atlas_layout.h"
 #include "display/tracked_eyes.h"
+#include "messages/accepted_encoding.h"
 #include "messages/display_from_proto.h"
 #include "web/asked_display.h"
 
@@ -25,11 +27,35 @@ absl::Status checkDisplay(const DisplaySpec& display) {
                              " images; accepted here is a display of one image", kElsewhere));
 }
 
-// Browsers read neither zstd nor planes of 16 bits.
-absl::StatusOr<v1::AtlasEncoding> forWeb(const v1::AtlasEncoding& asked) {
+bool isOnWeb(v1::BandEncoding color) {
+  return color == v1::BAND_ENCODING_JPEG || color == v1::BAND_ENCODING_H264;
+}
+
+// Those that the web has.
+absl::StatusOr<AcceptedEncodings> acceptedOnWeb(const AcceptedEncodings& accepted) {
+  AcceptedEncodings kept;
+  for (const v1::AcceptedEncoding& one : accepted) {
+    if (isOnWeb(one.color())) *kept.Add() = one;
+  }
+  if (!kept.empty() || accepted.empty()) return kept;
+  return invalidField("accepted",
+                      strCat("the web serves color as JPEG or H.264; list BAND_ENCODING_JPEG or "
+                             "BAND_ENCODING_H264",
+                             kElsewhere));
+}
+
+// Browsers read neither zstd nor planes of 16 bits. JPEG where nothing else is accepted, so that
+// errors name the field of the encoding.
+absl::StatusOr<v1::AtlasEncoding> forWeb(const v1::AtlasEncoding& asked,
+                                         const AcceptedEncodings& accepted) {
   v1::AtlasEncoding encoding = asked;
-  if (encoding.color() == v1::BAND_ENCODING_UNSPECIFIED) encoding.set_color(v1::BAND_ENCODING_JPEG);
-  if (encoding.color() != v1::BAND_ENCODING_JPEG && encoding.color() != v1::BAND_ENCODING_H264) {
+  const bool is_jpeg_only = std::ranges::all_of(accepted, [](const v1::AcceptedEncoding& one) {
+    return one.color() == v1::BAND_ENCODING_JPEG;
+  });
+  if (encoding.color() == v1::BAND_ENCODING_UNSPECIFIED && is_jpeg_only) {
+    encoding.set_color(v1::BAND_ENCODING_JPEG);
+  }
+  if (encoding.color() != v1::BAND_ENCODING_UNSPECIFIED && !isOnWeb(encoding.color())) {
     return invalidField("encoding.color",
                         strCat("the web serves color as JPEG or H.264; accepted here is "
                                "BAND_ENCODING_JPEG or BAND_ENCODING_H264",
@@ -60,10 +86,12 @@ absl::StatusOr<WatchRequest> makeWatchRequest(const AskedDisplay& asked) {
   absl::StatusOr<DisplaySpec> display = displayFromProto(asked.display);
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(display.status(), "display"));
   VIEWLOOM_RETURN_IF_ERROR(checkDisplay(*display));
-  const absl::StatusOr<v1::AtlasEncoding> for_web = forWeb(asked.encoding);
+  const absl::StatusOr<AcceptedEncodings> accepted = acceptedOnWeb(asked.accepted);
+  VIEWLOOM_RETURN_IF_ERROR(accepted.status());
+  const absl::StatusOr<v1::AtlasEncoding> for_web = forWeb(asked.encoding, *accepted);
   VIEWLOOM_RETURN_IF_ERROR(for_web.status());
-  const absl::StatusOr<EncodingSpec> encoding = encodingFromProto(*for_web, *display);
-  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(encoding.status(), "encoding"));
+  const absl::StatusOr<EncodingSpec> encoding = chooseEncoding(*for_web, *accepted, *display);
+  VIEWLOOM_RETURN_IF_ERROR(encoding.status());
   if (encoding->with_depth_codes) {
     return invalidField("display.rgbd.depth_bits",
                         strCat("the web serves no 16-bit depth; accepted here is 8", kElsewhere));

@@ -61,6 +61,30 @@ TEST_F(WatchRequests, takeAPresetAndASizeByHand) {
   EXPECT_EQ(std::get<IntegralSpec>(lenses->display.kind).panel_px, (SizePx{1280, 720}));
 }
 
+TEST_F(WatchRequests, takeTheFirstAcceptedColorThatServesTheDisplay) {
+  const auto colorOf = [this](const char* accepted, const char* preset) {
+    const auto request = parse({{"accepted", accepted}, {"preset", preset}});
+    EXPECT_TRUE(request.ok()) << request.status();
+    return request.ok() ? request->encoding.color : BandEncoding::kRaw;
+  };
+  const char* const both = R"([{"color": "BAND_ENCODING_H264"}, {"color": "BAND_ENCODING_JPEG"}])";
+  EXPECT_EQ(colorOf(both, "portrait"), BandEncoding::kH264);
+  EXPECT_EQ(colorOf(both, "near_eye_2013"), BandEncoding::kJpeg);
+  EXPECT_EQ(colorOf(R"([{"color": "BAND_ENCODING_JPEG"}])", "portrait"), BandEncoding::kJpeg);
+  EXPECT_EQ(colorOf(R"([{"color": "BAND_ENCODING_ZSTD"},
+                        {"color": "BAND_ENCODING_H264", "level_max": 10},
+                        {"color": "BAND_ENCODING_JPEG"}])",
+                    "portrait"),
+            BandEncoding::kJpeg);
+  EXPECT_EQ(parse({{"accepted", both}, {"encoding", R"({"color": "BAND_ENCODING_JPEG"})"}})
+                ->encoding.color,
+            BandEncoding::kJpeg);
+  EXPECT_EQ(fieldAtFault({{"accepted", R"([{"color": "BAND_ENCODING_ZSTD"}])"}}), "accepted");
+  EXPECT_EQ(fieldAtFault({{"accepted", R"([{"color": 3}, {"colour": 1}])"}}).substr(0, 8),
+            "accepted");
+  EXPECT_EQ(fieldAtFault({{"accepted", "nothing"}}), "accepted");
+}
+
 TEST_F(WatchRequests, takeAnyDisplayAndEncodingAsJson) {
   const auto request =
       parse({{"display",
@@ -140,7 +164,7 @@ TEST_F(WatchRequests, nameTheParameterOfWhatCameByHand) {
   const std::string unknown = messageOf({{"columns", "4"}});
   EXPECT_TRUE(
       unknown.starts_with("columns: there is no such parameter; known parameters: stream, "
-                          "display, encoding, preset, width, height"))
+                          "display, encoding, accepted, preset, width, height"))
       << unknown;
 }
 
