@@ -36,14 +36,15 @@ export function nameOf(display) {
   return others.length === 0 && Object.keys(kind).length === 1 ? kind.preset : undefined;
 }
 
-// "ws?stream=...&display=...": asked is {stream, display, encoding}, the latter messages as JSON.
-// All addresses of the server are relative, since a proxy may serve it below a path.
-export function askedPath({stream, display, encoding}) {
+// "ws?stream=...&display=...": asked is {stream, display, encoding, accepted}, the latter messages
+// as JSON. All addresses of the server are relative, since a proxy may serve it below a path.
+export function askedPath({stream, display, encoding, accepted}) {
   const parameters = new URLSearchParams({stream});
   const name = nameOf(display);
   if (name) parameters.set('preset', name);
   else parameters.set('display', JSON.stringify(display));
   if (Object.keys(encoding).length > 0) parameters.set('encoding', JSON.stringify(encoding));
+  if (accepted) parameters.set('accepted', JSON.stringify(accepted));
   return `ws?${parameters}`;
 }
 

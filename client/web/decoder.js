@@ -1,20 +1,36 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns atlas messages into bitmaps, one at a time; of those that wait only the newest is decoded.
 import {unpackDepth} from './compact_depth.js';
+import {VideoAtlases} from './video_atlas.js';
 
 const kHeaderLengthBytes = 4;
 
-// message: ArrayBuffer, the length of a JSON header (4 bytes, little-endian), the header, a JPEG,
-// and 1/Z of its px where that was asked for: float32 in 1/m, or compact.
+// The decoder of this thread: the page's, or the worker's.
+const videos = new VideoAtlases();
+
+// The pictures of a video, which follow each other from `begin` on.
+function picturesOf(message, begin, picture_bytes) {
+  let at_bytes = begin;
+  return picture_bytes.map((size_bytes) => {
+    at_bytes += size_bytes;
+    return new Uint8Array(message, at_bytes - size_bytes, size_bytes);
+  });
+}
+
+// message: ArrayBuffer, the length of a JSON header (4 bytes, little-endian), the header, a JPEG or
+// the pictures of a video, and 1/Z of its px where that was asked for: float32 in 1/m, or compact.
 export function parseAtlasMessage(message) {
   const headerLength = new DataView(message).getUint32(0, true);
   const headerBytes = new Uint8Array(message, kHeaderLengthBytes, headerLength);
   const header = JSON.parse(new TextDecoder().decode(headerBytes));
   const begin = kHeaderLengthBytes + headerLength;
-  const end = begin + header.jpeg_bytes;
+  const {picture_bytes = []} = header;  // none of a JPEG
+  const end = picture_bytes.reduce((sum, size_bytes) => sum + size_bytes,
+      begin + header.jpeg_bytes);
   return {
     header,
     blob: new Blob([new Uint8Array(message, begin, header.jpeg_bytes)], {type: 'image/jpeg'}),
+    pictures: picturesOf(message, begin, picture_bytes),
     depth: header.depth_bands ? [] :
       new Float32Array(message.slice(end, end + header.depth_bytes)),
     packedDepth: new Uint8Array(header.depth_bands ? message.slice(end) : 0),
@@ -22,11 +38,24 @@ export function parseAtlasMessage(message) {
   };
 }
 
-// {bitmap, depth}: depth of compact bands alone, {inv_z, columns, rows}.
-export async function decoded({blob, packedDepth, bands, width_px}) {
-  const [bitmap, depth] = await Promise.all([
-    createImageBitmap(blob), bands && unpackDepth(packedDepth, bands, width_px)]);
-  return {bitmap, depth};
+// {bitmap}, or {planes} of a video (video_planes.js).
+async function decodedColor({blob, pictures, layout, form}) {
+  if (pictures.length === 0) return {bitmap: await createImageBitmap(blob)};
+  return {...await videos.decode(pictures, layout, form), upload: videos.uploadOf(form)};
+}
+
+// The same, and `depth` of compact bands alone: {inv_z, columns, rows}.
+export async function decoded(job) {
+  const {packedDepth, bands, layout: {size, video}} = job;
+  const {width} = video?.picture_size ?? size;
+  const [made, depth] = await Promise.all([
+    decodedColor(job), bands && unpackDepth(packedDepth, bands, width)]);
+  return depth ? {...made, depth} : made;
+}
+
+// Takes planes back that nobody reads any more.
+export function recycle(planes) {
+  videos.recycle(planes);
 }
 
 export class Decoder {
@@ -34,10 +63,13 @@ export class Decoder {
   #decoding = null;
   #waiting = null;
 
-  // onDecoded(atlas with bitmap and decode_ms), onDropped(atlas)
-  constructor(onDecoded, onDropped) {
+  // onDecoded(atlas with bitmap or planes, release() of them, and decode_ms), onDropped(atlas),
+  // onVideoFailed(reason): not called where all is asked for as JPEG
+  constructor(onDecoded, onDropped, onVideoFailed) {
     this.onDecoded = onDecoded;
     this.onDropped = onDropped;
+    this.onVideoFailed = onVideoFailed;
+    this.form = 'bitmap';  // of videos: what is drawn best now, 'bitmap' or 'planes'
     try {
       this.#worker = new Worker('decode_worker.js', {type: 'module'});
       this.#worker.onmessage = ({data}) => this.#finish(data);
@@ -63,17 +95,18 @@ export class Decoder {
   #start(atlas) {
     this.#decoding = atlas;
     atlas.decodeStarted_ms = performance.now();
-    const {blob, packedDepth, header} = atlas;
-    const job = {blob, packedDepth, bands: header.depth_bands, width_px: header.layout.size.width};
+    const {blob, pictures, packedDepth, header} = atlas;
+    const job = {blob, pictures, packedDepth, bands: header.depth_bands, layout: header.layout,
+      form: this.form};
     if (this.#worker) {
       this.#worker.postMessage(job);
     } else {
       decoded(job).then(
-          (made) => this.#finish(made), (error) => this.#finish({error: String(error)}));
+          (made) => this.#finish(made), (error) => this.#finish({error: error.message}));
     }
   }
 
-  #finish({bitmap, depth, error}) {
+  #finish({error, ...made}) {
     const atlas = this.#decoding;
     this.#decoding = null;
     if (this.#waiting) {
@@ -84,11 +117,19 @@ export class Decoder {
     if (error) {
       console.warn(`atlas ${atlas.header.sequence} cannot be decoded: ${error}`);
       this.onDropped(atlas);
+      if (atlas.pictures.length > 0) this.onVideoFailed(error);
       return;
     }
-    atlas.bitmap = bitmap;
-    if (depth) atlas.depth = depth;
+    Object.assign(atlas, made);
+    atlas.release = () => this.#release(made);
     atlas.decode_ms = performance.now() - atlas.decodeStarted_ms;
     this.onDecoded(atlas);
+  }
+
+  #release({bitmap, planes}) {
+    bitmap?.close();
+    if (!planes) return;
+    if (this.#worker) this.#worker.postMessage({planes}, [planes.buffer]);
+    else recycle(planes);
   }
 }

@@ -6,6 +6,7 @@ import {allow} from './allowed.js';
 import {kQuiltSteps} from './detail_steps.js';
 import {put} from './display_document.js';
 import {RgbdChoice} from './rgbd_choice.js';
+import {acceptedEncodings, withColor} from './video_choice.js';
 
 // Fields of the form for a quilt of one's own, by the names of their inputs.
 const kQuiltFields = {
@@ -93,15 +94,18 @@ export class DisplayChoice {
 
   get isAutomatic() { return byId('detail').value === 'auto'; }
 
-  // The request in the form of /ws: {stream, display, encoding}. Its views are those that are seen,
-  // in their size.
+  // The request in the form of /ws: {stream, display, encoding, accepted}. Its views are those that
+  // are seen, in their size.
   // To be sent whenever one of them, the room for them, or the automatic detail is another.
   asked(stream) {
     const display = this.#document.whole;
     const encoding = this.#document.encoding;
-    if (this.isEye) return {stream, ...this.#eyes(display, encoding)};
+    if (this.isEye) {
+      return {stream, ...this.#eyes(display, encoding), accepted: acceptedEncodings()};
+    }
     this.#takeAll(display, encoding);
-    return {stream, display, encoding};
+    return {stream, display, encoding: withColor(encoding, this.seen === 'all'),
+      accepted: acceptedEncodings()};
   }
 
   // The same picture for the eyes in a headset.
@@ -109,7 +113,7 @@ export class DisplayChoice {
     const {quilt, focus_following_s, ...others} = this.#document.whole;
     const layout = count === 1 ? 'STEREO_LAYOUT_SINGLE' : 'STEREO_LAYOUT_SIDE_BY_SIDE';
     const display = {...others, stereo: {layout, tracked: true, eye_size}};
-    const encoding = {...this.#document.encoding, with_depth: true,
+    const encoding = {...withColor(this.#document.encoding, false), with_depth: true,
       planes: 'BAND_ENCODING_COMPACT_DEPTH'};
     return {stream, display, encoding};
   }
@@ -151,7 +155,7 @@ export class DisplayChoice {
     if (this.around.late.isOn) {
       Object.assign(encoding, {with_depth: true, planes: 'BAND_ENCODING_COMPACT_DEPTH'});
     }
-    return {display, encoding};
+    return {display, encoding: withColor(encoding, false)};
   }
 
   #takeAll(display, encoding) {

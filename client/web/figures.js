@@ -239,7 +239,7 @@ export class Figures {
   }
 
   #refreshFacts(rate_hz) {
-    const {header, bytes} = this.#newest;
+    const {header, bytes, pictures} = this.#newest;
     const {layout} = header;
     const {isPart, total} = shownViews(layout);
     const facts = {
@@ -250,7 +250,7 @@ export class Figures {
         `${layout.columns} × ${layout.rows} = ${layout.view_count}`,
       'Size': `${layout.size.width} × ${layout.size.height} px`,
       'A view': `${layout.tile_size.width} × ${layout.tile_size.height} px`,
-      'Data': `${(bytes / 1e6).toFixed(2)} MB`,
+      'Data': `${(bytes / 1e6).toFixed(2)} MB${pictures.length > 0 ? ' of H.264' : ''}`,
       'Motion to picture': latencyText(this.#motion),
       'Data rate': `${(rate_hz * bytes * 8 / 1e6).toFixed(1)} Mbit/s`,
       'Skipped': `${this.#dropCount()} for newer pictures`,

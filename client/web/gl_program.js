@@ -32,8 +32,8 @@ export class GlProgram {
     return this.#places[name] ??= this.gl.getUniformLocation(this.program, name);
   }
 
-  // Draws to the framebuffer that is bound. uints, floats: by name, a number, or up to four.
-  draw(width_px, height_px, {uints = {}, floats = {}}) {
+  // uints, floats: by name, a number, or up to four.
+  set({uints = {}, floats = {}}) {
     const {gl} = this;
     gl.useProgram(this.program);
     for (const [kind, values] of [['ui', uints], ['f', floats]]) {
@@ -42,7 +42,12 @@ export class GlProgram {
         gl[`uniform${list.length}${kind}v`](this.place(name), list);
       }
     }
-    gl.viewport(0, 0, width_px, height_px);
-    gl.drawArrays(gl.TRIANGLES, 0, 3);
+  }
+
+  // Draws to the framebuffer that is bound. values: see set().
+  draw(width_px, height_px, values) {
+    this.set(values);
+    this.gl.viewport(0, 0, width_px, height_px);
+    this.gl.drawArrays(this.gl.TRIANGLES, 0, 3);
   }
 }

@@ -31,6 +31,7 @@ import {Stage} from './stage.js';
 import {StreamList} from './stream_list.js';
 import {Tilt} from './tilt.js';
 import {badAddress, endTrouble, missingStream, showTrouble} from './trouble.js';
+import {findVideo, giveUpVideo} from './video_choice.js';
 import {ViewsOutside} from './views_outside.js';
 import {Weaver} from './weaver.js';
 import {XrButton} from './xr_button.js';
@@ -38,7 +39,8 @@ import {XrButton} from './xr_button.js';
 const kRetry_ms = 1000;
 const kLook_ms = 100;     // from one look for a picture that stands still to the next
 const kResized_ms = 150;  // a size that stays as long is asked for
-const kPainted = ['panel', 'eye', 'rgbd'];  // modes that draw by themselves
+const kWoven = ['panel', 'eye'];
+const kPainted = [...kWoven, 'rgbd'];  // modes that draw by themselves
 const kSilence = 'The server does not answer. Trying again.';
 
 const byId = (id) => document.getElementById(id);
@@ -47,7 +49,7 @@ let watching = null;  // name of the stream
 let chosen = null;    // the DisplayDocument
 let resizeTimer = 0;
 let isPublisherGone = false;
-
+const onVideoFailed = (reason) => giveUpVideo(reason, ask);
 const figures = new Figures();
 const commands = new Commands();
 const patience = new Patience();
@@ -75,6 +77,7 @@ const stage = new Stage(byId('stage'), {
     clearTimeout(resizeTimer);
     resizeTimer = setTimeout(ask, kResized_ms);
   },
+  onVideoFailed,
 });
 
 const around = new Around(stage, (message) => stream.send(message), ask);
@@ -119,7 +122,7 @@ const decoder = new Decoder(
     (atlas) => {
       stream.shown(atlas.header.delivery);
       figures.noteDropped();
-    });
+    }, onVideoFailed);
 
 const stream = new AtlasStream({
   onAtlas(atlas) {
@@ -180,6 +183,7 @@ const modes = new Modes({
   rgbd: new RgbdMode(stage),
 }, (mode) => {
   if (!kPainted.includes(mode)) stage.painter = null;
+  decoder.form = kWoven.includes(mode) ? 'planes' : 'bitmap';
   seeAsOf(mode);
   shapePicture(stage.layout, mode);
   stage.invalidate();
@@ -250,6 +254,7 @@ const streams = new StreamList({
 
 async function start() {
   try {
+    await findVideo();
     chosen = await DisplayDocument.ofAddress((problem) => refuse(badAddress(problem)));
     if (!chosen) return;
   } catch {

@@ -2,23 +2,14 @@
 // Draws one view of the newest atlas, or the whole of it; or lets a painter draw. For a view that
 // is not at hand it draws the nearest.
 import {watchDeviceSize} from './device_size.js';
+import {tileOrigin} from './tile_origin.js';
+import {VideoCanvas} from './video_canvas.js';
 
 // Half a pixel inside a tile, smoothing does not reach into its neighbours.
 const kTileEdge_px = 0.5;
 // Around the picture, of the canvas's shorter side; small windows have no room for it.
 const kMarginShare = 0.025;
 const small = matchMedia('(max-width: 760px), (max-height: 500px)');
-
-// Top left corner of a view's tile in the atlas, px. What remains beside the tiles is padding at
-// the right and at the top.
-export function tileOrigin(layout, view) {
-  const row = Math.floor(view / layout.columns);
-  const rowFromTop = layout.order === 'BOTTOM_LEFT' ? layout.rows - 1 - row : row;
-  return {
-    x: (view % layout.columns) * layout.tile_size.width,
-    y: layout.padding_top_px + rowFromTop * layout.tile_size.height,
-  };
-}
 
 // Which views of the display an atlas shows: from which on, and of how many. It shows all of them,
 // or those that share a part of the cone.
@@ -32,9 +23,12 @@ export function shownViews({view_count, cone_begin, cone_end}) {
 export class Stage {
   #atlas = null;
   #scheduled = false;
+  #pictures;  // draws them, of either kind
 
-  // onDrawn(atlas); onResize(): its pictures have room for another number of px
-  constructor(canvas, {onDrawn, onResize}) {
+  // onDrawn(atlas); onResize(): its pictures have room for another number of px;
+  // onVideoFailed(reason): video cannot be drawn here
+  constructor(canvas, {onDrawn, onResize, onVideoFailed}) {
+    this.#pictures = new VideoCanvas(onVideoFailed);
     this.canvas = canvas;
     this.onDrawn = onDrawn;
     this.onResize = onResize;
@@ -51,7 +45,7 @@ export class Stage {
   get total() { return this.#atlas ? shownViews(this.layout).total : 0; }
 
   show(atlas) {
-    this.#atlas?.bitmap.close();
+    this.#atlas?.release();
     this.#atlas = atlas;
     this.invalidate();
   }
@@ -109,10 +103,11 @@ export class Stage {
   }
 
   #drawWhole() {
-    const {bitmap} = this.#atlas;
+    const {width, height} = this.layout.size;
     // A display that takes the whole picture has no room for a margin.
     const marginShare = document.fullscreenElement ? 0 : undefined;
-    this.context.drawImage(bitmap, ...this.frame(bitmap.width / bitmap.height, marginShare));
+    this.#pictures.draw(this.context, this.#atlas, [0, 0, width, height],
+                        this.frame(width / height, marginShare));
     delete this.canvas.dataset.view;
   }
 
@@ -131,8 +126,8 @@ export class Stage {
     const {layout, context} = this;
     const {x, y} = tileOrigin(layout, view);
     const {width, height} = layout.tile_size;
-    context.drawImage(
-        this.#atlas.bitmap, x + kTileEdge_px, y + kTileEdge_px, width - 2 * kTileEdge_px,
-        height - 2 * kTileEdge_px, ...this.frame(layout.aspect));
+    const source = [x + kTileEdge_px, y + kTileEdge_px, width - 2 * kTileEdge_px,
+      height - 2 * kTileEdge_px];
+    this.#pictures.draw(context, this.#atlas, source, this.frame(layout.aspect));
   }
 }

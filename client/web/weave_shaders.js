@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // The fragment shaders of the woven panel, around the text that the server's own shaders include.
+import {kStackLookup} from './video_shaders.js';
 
 const kShared = ['gpu_types.h', 'lenticular.h'];
 
-// Which view each subpixel shows, and its colour there.
-const kWeave = `
+// Colour of a view in a quilt. at: 0..1 from the view's left and top. Half a px inside its tile,
+// filters reach no neighbour.
+const kQuiltLevel = `
 uniform sampler2D quilt;
-uniform Lenticular lens;
-uniform uvec2 panel_px, tile_px;
-uniform uint columns, rows, view_count, padding_top_px, is_bottom_left, target_height_px;
-out vec4 color;
+uniform uvec2 tile_px;
+uniform uint columns, rows, padding_top_px, is_bottom_left;
 
-// at: 0..1 from the view's left and top. Half a px inside its tile, filters reach no neighbour.
 float viewLevel(uint view, vec2 at, uint channel) {
   uint row = view / columns;
   uint row_from_top = is_bottom_left != 0u ? rows - 1u - row : row;
@@ -19,6 +18,21 @@ float viewLevel(uint view, vec2 at, uint channel) {
   vec2 inside_px = clamp(at * vec2(tile_px), vec2(0.5), vec2(tile_px) - 0.5);
   return texture(quilt, (origin_px + inside_px) / vec2(textureSize(quilt, 0)))[channel];
 }
+`;
+
+// The same of a view in the pictures of a video.
+const kStackLevel = `${kStackLookup}
+float viewLevel(uint view, vec2 at, uint channel) {
+  return viewChannel(view, at * vec2(view_px), channel);
+}
+`;
+
+// Which view each subpixel shows, and its colour there.
+const kWeave = `
+uniform Lenticular lens;
+uniform uvec2 panel_px;
+uniform uint view_count, target_height_px;
+out vec4 color;
 
 void main() {
   uvec2 px = uvec2(gl_FragCoord.x, float(target_height_px) - gl_FragCoord.y);
@@ -82,10 +96,12 @@ async function fetchText(path) {
   return reply.text();
 }
 
-// Fragment shaders, complete: {weave, eye}.
+// Fragment shaders, complete: {weave, weaveStack, eye}. The second one takes planes of a video.
 export async function fetchShaders() {
   const texts = await Promise.all(kShared.map(fetchText));
   const shared = texts.join('\n').replace(/^#include "shared\/.*$/gm, '');
   const head = `#version 300 es\nprecision highp float;\nprecision highp int;\n${shared}`;
-  return {weave: head + kWeave, eye: head + kEye};
+  return {
+    weave: head + kQuiltLevel + kWeave, weaveStack: head + kStackLevel + kWeave, eye: head + kEye,
+  };
 }

@@ -3,6 +3,7 @@
 import {lensCount} from './calibration.js';
 import {GlProgram} from './gl_program.js';
 import {makeLenticular} from './lenticular.js';
+import {VideoTextures} from './video_textures.js';
 import {fetchShaders} from './weave_shaders.js';
 
 export class Weaver {
@@ -10,6 +11,7 @@ export class Weaver {
   #shaders = null;
   #programs = null;
   #quilt = null;
+  #planes = null;    // textures of a video
   #panel = null;     // {texture, framebuffer}: the woven panel, for the eye
   #uploaded = null;  // the atlas that is in #quilt
   #woven = {};       // what is in #panel: {atlas, calibration}
@@ -43,9 +45,11 @@ export class Weaver {
     if (this.#programs || gl.isContextLost()) return;
     this.#programs = {
       weave: new GlProgram(gl, shaders.weave),
+      weaveStack: new GlProgram(gl, shaders.weaveStack),
       eye: new GlProgram(gl, shaders.eye),
     };
     this.#quilt = this.#makeTexture(gl.LINEAR);
+    this.#planes = new VideoTextures(gl);
     this.#panel = {texture: this.#makeTexture(gl.NEAREST), framebuffer: gl.createFramebuffer()};
     this.#uploaded = null;
     this.#woven = {};
@@ -69,7 +73,7 @@ export class Weaver {
     const gl = this.#gl;
     if (!gl || gl.isContextLost() || !this.#shaders || !this.calibration) return false;
     this.#start(this.#shaders);
-    if (this.#uploaded === atlas) return true;
+    if (atlas.planes || this.#uploaded === atlas) return true;
     gl.bindTexture(gl.TEXTURE_2D, this.#quilt);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, atlas.bitmap);
     this.#uploaded = atlas;
@@ -120,17 +124,26 @@ export class Weaver {
   #weave(atlas, width_px, height_px) {
     const {layout} = atlas.header;
     const {screen_px} = this.calibration;
-    this.#gl.bindTexture(this.#gl.TEXTURE_2D, this.#quilt);
-    this.#setLens(this.#programs.weave);
-    this.#programs.weave.draw(width_px, height_px, {uints: {
+    const program = atlas.planes ? this.#programs.weaveStack : this.#programs.weave;
+    this.#setLens(program);
+    program.set({uints: {
       panel_px: [screen_px.width, screen_px.height],
+      view_count: layout.view_count,
+      target_height_px: height_px,
+    }});
+    if (atlas.planes) this.#planes.use(atlas, program);
+    else this.#useQuilt(layout, program);
+    program.draw(width_px, height_px, {});
+  }
+
+  #useQuilt(layout, program) {
+    this.#gl.bindTexture(this.#gl.TEXTURE_2D, this.#quilt);
+    program.set({uints: {
       tile_px: [layout.tile_size.width, layout.tile_size.height],
       columns: layout.columns,
       rows: layout.rows,
-      view_count: layout.view_count,
       padding_top_px: layout.padding_top_px,
       is_bottom_left: layout.order === 'BOTTOM_LEFT' ? 1 : 0,
-      target_height_px: height_px,
     }});
   }
 

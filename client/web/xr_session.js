@@ -105,7 +105,7 @@ export class XrStay {
       this.#poses.shown(atlas.header);
       this.#size.noteShown(atlas.header, performance.now());
     }
-    atlas.bitmap.close();
+    atlas.release();
   }
 
   #draw(time_ms, frame) {

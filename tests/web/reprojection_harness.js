@@ -24,8 +24,7 @@ window.open_eyes = (layout, width, height) => new Promise((resolve) => {
   socket.onmessage = async ({data}) => {
     const atlas = parseAtlasMessage(data);
     const {header} = atlas;
-    const made = await decoded({...atlas, bands: header.depth_bands,
-      width_px: header.layout.size.width});
+    const made = await decoded({...atlas, bands: header.depth_bands, layout: header.layout});
     socket.send(JSON.stringify({shown: header.delivery}));
     resolve();
     next?.({...atlas, ...made});

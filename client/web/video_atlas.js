@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// Decodes atlases whose colour is H.264, by WebCodecs. Runs in the worker of decode_worker.js.
+import {UploadTrial} from './upload_trial.js';
+import {canConvert, VideoConversion} from './video_conversion.js';
+import {VideoPainter} from './video_painter.js';
+import {VideoPlanes} from './video_planes.js';
+
+// Ways to bring pictures to where they are drawn.
+const kWays = {planes: VideoPlanes, conversion: VideoConversion, texImage2D: VideoPainter};
+// Those that are measured, by what is drawn: shaders take planes or a bitmap, a canvas of two
+// dimensions a bitmap. The first one of each is the faster one without a GPU.
+const kChoices = {planes: ['planes', 'texImage2D'], bitmap: ['conversion', 'texImage2D']};
+
+// Frames in the order in which the decoder gives them, for one reader.
+class FrameQueue {
+  #frames = [];
+  #wake = null;
+  #failure = null;
+  #isOver = false;
+
+  push(frame) {
+    if (this.#isOver) {
+      frame.close();
+      return;
+    }
+    this.#frames.push(frame);
+    this.#wake?.();
+  }
+
+  fail(error) {
+    this.#failure ??= error;
+    this.#wake?.();
+  }
+
+  // The next frame; throws what failed.
+  async next() {
+    while (this.#frames.length === 0) {
+      if (this.#failure) throw this.#failure;
+      await new Promise((resolve) => { this.#wake = resolve; });
+      this.#wake = null;
+    }
+    return this.#frames.shift();
+  }
+
+  // Closes what is left, and what still comes.
+  end() {
+    this.#isOver = true;
+    for (const frame of this.#frames.splice(0)) frame.close();
+  }
+}
+
+function checkSize({visibleRect: {width, height}}, {picture_size}) {
+  if (width === picture_size.width && height === picture_size.height) return;
+  throw new Error(`a picture of ${width}x${height} px; expected are ${picture_size.width}x` +
+                  `${picture_size.height} px`);
+}
+
+// Decoders in hardware keep other formats than I420, and reading them back is slow.
+function wayFor(frame, trial) {
+  const isInMemory = frame.format === 'I420';
+  const serves = {planes: isInMemory, conversion: isInMemory && canConvert(frame),
+    texImage2D: true};
+  if (serves[trial.next]) return trial.next;
+  trial.ruleOut(trial.next);
+  return trial.next;
+}
+
+export class VideoAtlases {
+  #decoder = null;
+  #configuration = '';  // as text
+  #frames = null;       // of the atlas that is being decoded
+  #timestamp_us = 0;    // of the next picture
+  #hardware = 'no-preference';
+  #ways = {};           // those that were begun, by name
+  #trials = Object.fromEntries(
+      Object.entries(kChoices).map(([form, names]) => [form, new UploadTrial(names)]));
+
+  // Name of the way that was measured to be the faster one for a form; '' = not yet.
+  uploadOf(form) { return this.#trials[form].kept; }
+
+  // pictures: access units, Uint8Array each; layout: the AtlasLayout; form: 'planes' or 'bitmap',
+  // what is drawn best. One call at a time.
+  // {bitmap} in the arrangement that the layout says, or {planes} of its stack. If a decoder fails,
+  // one without hardware tries the same atlas. Rejects with what is wrong then; the next atlas
+  // begins with a new decoder.
+  async decode(pictures, layout, form) {
+    try {
+      return await this.#decodeOnce(pictures, layout, form);
+    } catch (error) {
+      if (this.#hardware === 'prefer-software') throw error;
+      this.#hardware = 'prefer-software';
+      return this.#decodeOnce(pictures, layout, form);
+    }
+  }
+
+  async #decodeOnce(pictures, layout, form) {
+    const frames = new FrameQueue();
+    this.#frames = frames;
+    try {
+      this.#configure(layout.video);
+      this.#feed(pictures, frames);
+      return await this.#collect(frames, layout, this.#trials[form]);
+    } catch (error) {
+      this.close();
+      throw error;
+    } finally {
+      frames.end();
+    }
+  }
+
+  // Takes planes back that nobody reads any more.
+  recycle(planes) {
+    this.#ways.planes?.recycle(planes);
+  }
+
+  close() {
+    if (this.#decoder && this.#decoder.state !== 'closed') this.#decoder.close();
+    this.#decoder = null;
+    for (const way of Object.values(this.#ways)) way.close();
+    this.#ways = {};
+  }
+
+  // Time until the next frame is the decoder's. All other time is the way's.
+  async #collect(frames, layout, trial) {
+    let name = '';
+    let way = null;
+    let time_ms = 0;
+    for (let index = 0; index < layout.video.picture_count; ++index) {
+      const frame = await frames.next();
+      const begun_ms = performance.now();
+      try {
+        checkSize(frame, layout.video);
+        if (!way) {
+          name = wayFor(frame, trial);
+          way = this.#ways[name] ??= new kWays[name]();
+          way.begin(layout);
+        }
+        await way.put(index, frame);
+      } finally {
+        frame.close();
+      }
+      time_ms += performance.now() - begun_ms;
+    }
+    const begun_ms = performance.now();
+    const made = await way.finish();
+    trial.note(name, time_ms + performance.now() - begun_ms);
+    return made;
+  }
+
+  #configure({codec_string, picture_size}) {
+    const configuration = {
+      codec: codec_string, codedWidth: picture_size.width, codedHeight: picture_size.height,
+      optimizeForLatency: true, hardwareAcceleration: this.#hardware,
+    };
+    const text = JSON.stringify(configuration);
+    if (this.#decoder?.state === 'configured' && text === this.#configuration) return;
+    if (!this.#decoder || this.#decoder.state === 'closed') {
+      this.#decoder = new VideoDecoder({
+        output: (frame) => this.#frames.push(frame),
+        error: (error) => this.#frames.fail(error),
+      });
+    }
+    this.#decoder.configure(configuration);
+    this.#configuration = text;
+  }
+
+  #feed(pictures, frames) {
+    pictures.forEach((data, index) => {
+      this.#decoder.decode(new EncodedVideoChunk(
+          {type: index === 0 ? 'key' : 'delta', timestamp: this.#timestamp_us++, data}));
+    });
+    // Decoders may keep pictures until they know that no more come.
+    this.#decoder.flush().then(
+        () => frames.fail(new Error('the decoder gave fewer pictures than came')),
+        (error) => frames.fail(error));
+  }
+}
