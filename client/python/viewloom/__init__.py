@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from viewloom import aio
-    from viewloom.atlas import Atlas, view_window
+    from viewloom.atlas import Atlas
     from viewloom.clock import ClockOffset
     from viewloom.coded_color import CodedColor
     from viewloom.display import encoding
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from viewloom.publisher import Publisher
     from viewloom.server import Server, connect
     from viewloom.source import Source
+    from viewloom.tiles import view_window
     from viewloom.tls import Tls
     from viewloom.version import VERSION as __version__
     from viewloom.watcher import Watcher
@@ -30,7 +31,7 @@ else:
                 "Publisher": "publisher", "Server": "server", "Source": "source",
                 "Tls": "tls", "UnlikelyInput": "errors", "ViewloomError": "errors",
                 "Watcher": "watcher", "connect": "server", "encoding": "display",
-                "view_window": "atlas"}
+                "view_window": "tiles"}
 
     def __getattr__(name: str) -> Any:
         # Imported when first asked for: who uses viewloom.v1 alone needs no numpy.

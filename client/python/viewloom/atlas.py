@@ -14,9 +14,11 @@ import zstandard
 from numpy.typing import NDArray
 from PIL.JpegImagePlugin import JpegImageFile
 
+from viewloom import stack
 from viewloom.atlas_file import PathLike, save
 from viewloom.errors import BadInput, data_loss
-from viewloom.v1 import atlas_pb2, display_pb2
+from viewloom.tiles import view_window
+from viewloom.v1 import atlas_pb2
 from viewloom.v1.atlas_pb2 import AtlasLayout
 from viewloom.v1.display_service_pb2 import AtlasEnd, AtlasHeader
 
@@ -63,21 +65,6 @@ def _decode_jpeg(jpeg: bytes, size_px: tuple[int, int]) -> NDArray[Any]:
         raise data_loss(f"the bands are no JPEG: {problem}") from None
 
 
-def view_window(picture: NDArray[Any], layout: AtlasLayout, view: int) -> NDArray[Any]:
-    """The part of a picture of an atlas that shows one view: a window, not a copy.
-
-    picture: [height_px][width_px] or [height_px][width_px][channels], as layout.size.
-    """
-    if not 0 <= view < layout.view_count:
-        raise BadInput("view", f"is {view}, must lie in 0..{layout.view_count - 1}")
-    row, column = divmod(view, layout.columns)
-    if layout.order != display_pb2.TILE_ORDER_TOP_LEFT:
-        row = layout.rows - 1 - row
-    top = layout.padding_top_px + row * layout.tile_size.height
-    left = column * layout.tile_size.width
-    return picture[top:top + layout.tile_size.height, left:left + layout.tile_size.width]
-
-
 @dataclasses.dataclass(repr=False)
 class Atlas:
     """All views of a display at one instant. Pictures are decoded when first asked for.
@@ -116,26 +103,45 @@ class Atlas:
 
         Raises BadInput when it was not asked for.
         """
+        height = self.layout.size.height // self.image_count
+        if self.layout.HasField("video"):
+            # Bands lie in the pictures of the video, whichever image their views belong to.
+            return self._stacked(plane)[image_index * height:(image_index + 1) * height]
+        bands = self._bands_of(plane, image_index)
+        if bands[0].encoding in _JPEGS:
+            return _decode_jpeg(b"".join(band.data for band in bands),
+                                (self.layout.size.width, height))
+        return self._unpacked(bands, plane, self.layout.size.width, height)
+
+    def _bands_of(self, plane: atlas_pb2.AtlasPlane, image_index: int) -> list[Band]:
         bands = [band for band in self.bands
                  if band.plane == plane and band.image_index == image_index]
         if not bands:
             name = atlas_pb2.AtlasPlane.Name(plane)
             raise BadInput("plane", f"{name} of image {image_index} did not come: ask for it with "
                            "encoding=viewloom.encoding(...)")
-        height = self.layout.size.height // self.image_count
-        if bands[0].encoding in _JPEGS:
-            return _decode_jpeg(b"".join(band.data for band in bands),
-                                (self.layout.size.width, height))
-        return self._unpacked(bands, plane, height)
+        return bands
+
+    def _stacked(self, plane: atlas_pb2.AtlasPlane) -> NDArray[Any]:
+        """All images of an atlas whose color is video."""
+        video = self.layout.video
+        pictures = [self._bands_of(plane, picture) for picture in range(video.picture_count)]
+        if plane == atlas_pb2.ATLAS_PLANE_COLOR:
+            return stack.decoded([b"".join(band.data for band in bands) for bands in pictures],
+                                 self.layout)
+        return stack.unstacked(
+            [self._unpacked(bands, plane, video.picture_size.width, video.picture_size.height)
+             for bands in pictures], self.layout)
 
     def _whole(self, plane: atlas_pb2.AtlasPlane) -> NDArray[Any]:
+        if self.layout.HasField("video"):
+            return self._stacked(plane)
         images = [self.plane(plane, image) for image in range(self.image_count)]
         return images[0] if len(images) == 1 else np.concatenate(images)
 
-    def _unpacked(self, bands: list[Band], plane: atlas_pb2.AtlasPlane,
+    def _unpacked(self, bands: list[Band], plane: atlas_pb2.AtlasPlane, width: int,
                   height: int) -> NDArray[Any]:
         sample_type, channels = _SAMPLES[plane]
-        width = self.layout.size.width
         row_bytes = width * channels * np.dtype(sample_type).itemsize
         pieces = []
         row = 0

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Views that lie in the pictures of a video, put where the layout has them (proto VideoStack)."""
+
+from __future__ import annotations
+
+from typing import Any, Sequence, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from viewloom import h264
+from viewloom.errors import data_loss
+from viewloom.tiles import view_window
+from viewloom.v1 import atlas_pb2
+from viewloom.v1.atlas_pb2 import AtlasLayout, VideoStack
+
+_Sample = TypeVar("_Sample", bound=np.generic)
+
+
+def _check(layout: AtlasLayout) -> VideoStack:
+    """A stack that has a cell for each view, so that no index leaves a picture."""
+    video, tile = layout.video, layout.tile_size
+    cells = video.picture_count * video.columns * video.rows
+    is_whole = (
+        0 < layout.view_count <= min(cells, layout.columns * layout.rows)
+        and layout.columns * tile.width <= layout.size.width
+        and layout.padding_top_px + layout.rows * tile.height <= layout.size.height
+        and 0 < tile.width <= video.cell_size.width and 0 < tile.height <= video.cell_size.height
+        and video.columns * video.cell_size.width == video.picture_size.width
+        and video.rows * video.cell_size.height == video.picture_size.height
+        and video.cell_size.width % 2 == 0 and video.cell_size.height % 2 == 0)
+    if not is_whole:
+        raise data_loss("the pictures of the video do not hold the views of the layout")
+    if video.color_matrix != atlas_pb2.COLOR_MATRIX_BT601 or not video.full_range:
+        raise data_loss("the video has another colour matrix or range than BT.601 in full range")
+    return video
+
+
+def _cell(video: VideoStack, view: int) -> tuple[int, int, int]:
+    """Picture of a view, and the top left pixel of its cell: (picture, left, top)."""
+    cell, picture = divmod(view, video.picture_count)
+    row, column = divmod(cell, video.columns)
+    return picture, column * video.cell_size.width, row * video.cell_size.height
+
+
+def unstacked(pictures: Sequence[NDArray[_Sample]], layout: AtlasLayout) -> NDArray[_Sample]:
+    """Samples of all pictures, [height_px][width_px] or with channels, as layout.size says."""
+    video, tile = _check(layout), layout.tile_size
+    shape = (layout.size.height, layout.size.width) + pictures[0].shape[2:]
+    whole: NDArray[_Sample] = np.zeros(shape, pictures[0].dtype)
+    for view in range(layout.view_count):
+        picture, left, top = _cell(video, view)
+        view_window(whole, layout, view)[:] = pictures[picture][top:top + tile.height,
+                                                                left:left + tile.width]
+    whole.flags.writeable = False
+    return whole
+
+
+def _enlarged(plane: NDArray[np.uint8], width: int, height: int) -> Any:
+    """Chroma of a view between its samples, as libjpeg has it; none of the views beside it."""
+    doubled = Image.fromarray(plane).resize((2 * plane.shape[1], 2 * plane.shape[0]),
+                                            Image.Resampling.BILINEAR)
+    return doubled.crop((0, 0, width, height))
+
+
+def _view_rgb(picture: h264.Picture, left: int, top: int, width: int,
+              height: int) -> NDArray[np.uint8]:
+    half = (slice(top // 2, top // 2 + (height + 1) // 2),
+            slice(left // 2, left // 2 + (width + 1) // 2))
+    merged = Image.merge("YCbCr", (
+        Image.fromarray(picture.luma[top:top + height, left:left + width]),
+        _enlarged(picture.cb[half], width, height), _enlarged(picture.cr[half], width, height)))
+    return np.asarray(merged.convert("RGB"))
+
+
+def decoded(access_units: Sequence[bytes], layout: AtlasLayout) -> NDArray[np.uint8]:
+    """uint8[height_px][width_px][3], sRGB, of all views; read-only. Raises DATA_LOSS."""
+    video, tile = _check(layout), layout.tile_size
+    if len(access_units) != video.picture_count:
+        raise data_loss(f"{len(access_units)} pictures of H.264 came, the layout has "
+                        f"{video.picture_count}")
+    whole = np.zeros((layout.size.height, layout.size.width, 3), np.uint8)
+    with h264.Decoder() as decoder:
+        for index, access_unit in enumerate(access_units):
+            picture = decoder.decode(access_unit, video.picture_size.width,
+                                     video.picture_size.height)
+            for view in range(index, layout.view_count, video.picture_count):
+                _, left, top = _cell(video, view)
+                view_window(whole, layout, view)[:] = _view_rgb(picture, left, top, tile.width,
+                                                                tile.height)
+    whole.flags.writeable = False
+    return whole
