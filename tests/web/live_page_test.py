@@ -123,6 +123,19 @@ class LivePage(PageTest):
             tiles = self.wait_for_view(self.look(share))
         self.assertGreater(difference(tiles[0], tiles[-1]), difference(tiles[0], tiles[1]))
 
+    def test_a_quilt_of_video_looks_as_one_of_jpeg(self):
+        self.publisher.stop()
+        shown = []
+        for color in ("BAND_ENCODING_JPEG", "BAND_ENCODING_H264"):
+            query = asked(QUILT, {"color": color, "jpeg_quality": 95}, "scene", mode="quilt",
+                          detail="1")
+            self.open(f"?{query}")
+            self.browser.wait_for("document.getElementById('facts').textContent"
+                                  f".includes('H.264') === {str('H264' in color).lower()}")
+            shown.append(self.shown_picture())
+        self.assertEqual(shown[0].size, shown[1].size)
+        self.assertLess(difference(*shown), 6)
+
     def test_comes_back_after_a_restart_of_the_server(self):
         self.open(f"?{DISPLAY}")
         self.assertEqual(self.server.stop(), 0)
