@@ -27,10 +27,11 @@ absl::Status decodeH264Plane(std::span<const uint8_t> wire, SizePx size_px,
   uint32_t row = 0;
   for (const StillPicture& still : *pictures) {
     const auto picture = (*decoder)->decode(still.access_unit, still.size_px);
+    if (absl::IsResourceExhausted(picture.status())) return picture.status();
     if (!picture.ok()) {
-      return absl::Status(picture.status().code(),
-                          strCat("the picture at row ", row, " does not decode: ",
-                                 picture.status().message(), "; send it whole and unchanged"));
+      return absl::InvalidArgumentError(strCat("the picture at row ", row,
+                                               " does not decode: ", picture.status().message(),
+                                               "; send it whole and unchanged"));
     }
     const uint32_t row_count = std::min(still.size_px.height, size_px.height - row);
     writeOpaqueColors(*picture, {.view_px = {size_px.width, row_count}},

@@ -65,7 +65,7 @@ bool becomesRgba8(PlaneEncoding encoding) {
 uint64_t codecBytes(const PlaneFormat& plane) {
   if (plane.encoding != PlaneEncoding::kH264) return 0;
   // Measured: tests/performance.md, "Colour as video".
-  constexpr uint64_t kPixelBytes = 18;
+  constexpr uint64_t kPixelBytes = 20;
   constexpr uint64_t kDecoderBytes = uint64_t{4} << 20;
   const uint64_t picture_px = std::min(plane.size_px.area(), kH264PictureMax_px);
   return kDecoderBytes + kPixelBytes * picture_px + 2 * plane.wire_bytes;
