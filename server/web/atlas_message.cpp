@@ -79,12 +79,14 @@ bool isVideo(const EncodedAtlas& atlas) {
   return atlas.encoding.color == BandEncoding::kH264;
 }
 
-// Rows, and bytes, of each band: compact depth is unpacked band by band.
+// Rows, and bytes, of each band: compact depth is unpacked band by band. Rows of the pictures of a
+// video follow each other.
 json depthBandsJson(const EncodedAtlas& atlas) {
+  const uint32_t image_rows = atlas.layout->imageSize().height;
   json bands = json::array();
   for (const EncodedBand& band : atlas.bands) {
-    if (band.plane != AtlasPlane::kDepth || band.image_index != 0) continue;
-    bands.push_back({{"first_row", band.first_row},
+    if (band.plane != AtlasPlane::kDepth) continue;
+    bands.push_back({{"first_row", image_rows * band.image_index + band.first_row},
                      {"row_count", band.row_count},
                      {"bytes", band.bytes->size()}});
   }

@@ -105,6 +105,19 @@ TEST(AtlasMessage, listsTheBandsOfCompactDepth) {
       {"first_row": 128, "row_count": 2, "bytes": 3}])"));
 }
 
+TEST(AtlasMessage, countsTheRowsOfCompactDepthThroughAllPictures) {
+  const auto atlas = someAtlas();
+  atlas->encoding = {
+      .color = BandEncoding::kH264, .with_depth = true, .planes = BandEncoding::kCompactDepth};
+  auto layout = std::make_shared<AtlasLayout>(*atlas->layout);
+  layout->tile_size_px = {16, 20};
+  ASSERT_TRUE(stackViews(*layout).ok());
+  atlas->layout = layout;
+  atlas->bands[2].image_index = 1;
+  const nlohmann::json bands = headerOf(atlas).at("depth_bands");
+  EXPECT_EQ(bands.at(0).at("first_row"), layout->stack->pictureSize().height);
+}
+
 TEST(AtlasMessage, holdsTheTimesOfItsStages) {
   const auto atlas = someAtlas();
   atlas->times = {.build_ns = 4, .retime_ns = 5, .total_ns = 20};
