@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "tls/make_certificate.h"
+#include "unit/web/no_eyes.h"
 #include "web/asio.h"
 
 namespace viewloom::http_server_test {
@@ -22,12 +23,6 @@ using testing::HasSubstr;
 using testing::Not;
 
 constexpr std::string_view kWatch = "/ws?stream=room&preset=portrait&width=320&height=240";
-
-// Nobody tracks eyes here.
-class NoEyes final : public EyeSink {
- public:
-  void serveEyes(uint64_t /*display_id*/) override {}
-};
 
 class FailingParts : public testing::Test {
  protected:

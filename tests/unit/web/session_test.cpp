@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "access/token_file.h"
+#include "unit/web/no_eyes.h"
 #include "web/admission.h"
 
 namespace viewloom::session_test {
@@ -54,7 +55,7 @@ class Session : public testing::Test {
     EXPECT_TRUE(addToTokenFile(path_, {.identity = identity, .note = ""}).ok());
     access_.emplace(AccessOptions{.token_file = path_}, clock_);
     const auto healthy = [] { return absl::OkStatus(); };
-    context_.emplace(HttpOptions{}, HostPolicy({}, {}, {}), healthy, streams_, broadcaster_,
+    context_.emplace(HttpOptions{}, HostPolicy({}, {}, {}), healthy, streams_, broadcaster_, eyes_,
                      metrics_, clock_, *access_, unboundedMemory());
     for (const char* name : {"room.1", "hall"}) claims_.push_back(*streams_.claim(name, "", [] {}));
   }
@@ -89,6 +90,7 @@ class Session : public testing::Test {
   Metrics metrics_;
   StreamDirectory streams_{clock_, 4};
   Broadcaster broadcaster_{BroadcasterLimits{}};
+  NoEyes eyes_;
   std::optional<AccessControl> access_;
   std::optional<WebContext> context_;
   std::vector<std::unique_ptr<StreamDirectory::Claim>> claims_;
