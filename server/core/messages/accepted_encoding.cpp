@@ -12,6 +12,9 @@
 namespace viewloom {
 namespace {
 
+// Each of them plans the stack of the display, and may add its reason to an error.
+constexpr int kAcceptedMax = 32;
+
 // A limit that the client gives, else the largest that there is.
 uint32_t limitOf(uint32_t given, uint32_t largest) {
   return given == 0 ? largest : given;
@@ -53,6 +56,11 @@ absl::StatusOr<EncodingSpec> tryOne(const v1::AtlasEncoding& asked,
 absl::StatusOr<EncodingSpec> chooseEncoding(const v1::AtlasEncoding& asked,
                                             const AcceptedEncodings& accepted,
                                             const DisplaySpec& display) {
+  if (accepted.size() > kAcceptedMax) {
+    return invalidField(
+        "accepted", strCat("got ", accepted.size(), " encodings; accepted are up to ", kAcceptedMax,
+                           ": list each color once"));
+  }
   if (accepted.empty() || asked.color() != v1::BAND_ENCODING_UNSPECIFIED) {
     absl::StatusOr<EncodingSpec> encoding = encodingFromProto(asked, display);
     if (!encoding.ok()) return withFieldPrefix(encoding.status(), "encoding");

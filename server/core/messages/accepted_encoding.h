@@ -14,8 +14,8 @@ using AcceptedEncodings = google::protobuf::RepeatedPtrField<v1::AcceptedEncodin
 
 // The encoding that serves the display, with every default: `asked`, and if it leaves color open,
 // with the first accepted color that the display and the client's limits allow. Without accepted
-// ones, as encodingFromProto says. INVALID_ARGUMENT with the field "accepted" if none serves; other
-// errors name the field as "encoding.color".
+// ones, as encodingFromProto says. INVALID_ARGUMENT with the field "accepted" if none serves, or if
+// there are more than 32; other errors name the field as "encoding.color".
 absl::StatusOr<EncodingSpec> chooseEncoding(const v1::AtlasEncoding& asked,
                                             const AcceptedEncodings& accepted,
                                             const DisplaySpec& display);

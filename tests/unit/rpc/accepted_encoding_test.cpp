@@ -48,6 +48,19 @@ TEST(AcceptedEncoding, takesTheFirstThatServesTheDisplay) {
   EXPECT_EQ(of_panel->color, BandEncoding::kJpeg);
 }
 
+TEST(AcceptedEncoding, triesOnlySoMany) {
+  AcceptedEncodings accepted;
+  for (int i = 0; i < 32; ++i) accepted.Add()->set_color(v1::BAND_ENCODING_H264);
+  EXPECT_TRUE(chooseEncoding({}, accepted, displayOf("portrait")).ok());
+  accepted.Add()->set_color(v1::BAND_ENCODING_JPEG);
+  const absl::Status status = chooseEncoding({}, accepted, displayOf("portrait")).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(fieldOf(status), "accepted");
+  v1::AtlasEncoding jpeg;
+  jpeg.set_color(v1::BAND_ENCODING_JPEG);
+  EXPECT_FALSE(chooseEncoding(jpeg, accepted, displayOf("portrait")).ok());
+}
+
 TEST(AcceptedEncoding, keepsToTheLimitsOfADecoder) {
   AcceptedEncodings accepted = accepting({v1::BAND_ENCODING_H264, v1::BAND_ENCODING_ZSTD});
   accepted[0].set_level_max(30);
