@@ -48,6 +48,10 @@ absl::Status checkParameters(std::span<const uint8_t> unit, SizePx size_px) {
     return refusePicture(
         strCat("pictures of ", textOf(size_px), "; accepted are up to ", kVideoAreaMax_px, " px"));
   }
+  if (parameters->reference_count > kVideoReferencesMax) {
+    return refusePicture(strCat("it keeps ", parameters->reference_count,
+                                " pictures; accepted are up to ", kVideoReferencesMax));
+  }
   return absl::OkStatus();
 }
 
@@ -85,11 +89,18 @@ absl::Status OpenH264Decoder::start() {
   return absl::OkStatus();
 }
 
-absl::Status OpenH264Decoder::check(std::span<const uint8_t> access_unit, SizePx size_px) {
+// Nothing of a refused picture stays: neither parameter sets, nor pictures that were not taken.
+void OpenH264Decoder::restart() {
+  decoder_->Uninitialize();
+  is_started_ = start().ok();
+}
+
+absl::Status OpenH264Decoder::check(std::span<const uint8_t> access_unit, SizePx size_px) const {
   if (access_unit.size() > size_t{std::numeric_limits<int32_t>::max()}) {
     return refusePicture(strCat("a picture of ", access_unit.size(), " bytes"));
   }
   bool has_picture = false;
+  bool has_parameters = false;
   bool is_idr = false;
   for (const NalUnit& unit : nalUnits(access_unit)) {
     if (!isKnown(unit.type())) {
@@ -97,6 +108,7 @@ absl::Status OpenH264Decoder::check(std::span<const uint8_t> access_unit, SizePx
     }
     if (unit.type() == NalType::kSequenceParameters) {
       VIEWLOOM_RETURN_IF_ERROR(checkParameters(unit.bytes, size_px));
+      has_parameters = true;
     }
     is_idr |= unit.type() == NalType::kIdrSlice;
     has_picture |= is_idr || unit.type() == NalType::kSlice;
@@ -104,6 +116,10 @@ absl::Status OpenH264Decoder::check(std::span<const uint8_t> access_unit, SizePx
   if (!has_picture) return refusePicture("the bytes hold no picture");
   if (needs_idr_ && !is_idr) {
     return refusePicture("the picture refers to one that is missing or damaged");
+  }
+  // Versions of the library before 2.6 then use memory of another size (CVE-2025-27091).
+  if (has_parameters && !is_idr) {
+    return refusePicture("sequence parameters before a picture that refers to others");
   }
   return absl::OkStatus();
 }
@@ -113,6 +129,16 @@ absl::StatusOr<VideoPicture> OpenH264Decoder::decode(std::span<const uint8_t> ac
   const absl::Status checked = check(access_unit, size_px);
   needs_idr_ = true;  // until this picture is known to be whole
   VIEWLOOM_RETURN_IF_ERROR(checked);
+  if (!is_started_) VIEWLOOM_RETURN_IF_ERROR(start());
+  is_started_ = true;
+  absl::StatusOr<VideoPicture> picture = decodeChecked(access_unit, size_px);
+  needs_idr_ = !picture.ok();
+  if (!picture.ok()) restart();
+  return picture;
+}
+
+absl::StatusOr<VideoPicture> OpenH264Decoder::decodeChecked(std::span<const uint8_t> access_unit,
+                                                            SizePx size_px) {
   std::array<unsigned char*, 3> planes = {};
   SBufferInfo info = {};
   const DECODING_STATE state = decoder_->DecodeFrameNoDelay(
@@ -126,13 +152,15 @@ absl::StatusOr<VideoPicture> OpenH264Decoder::decode(std::span<const uint8_t> ac
   if (state != dsErrorFree || info.iBufferStatus != 1) {
     return refusePicture(strCat("the picture is damaged (decoding state ", int(state), ")"));
   }
+  int kept_count = 0;
+  decoder_->GetOption(DECODER_OPTION_NUM_OF_FRAMES_REMAINING_IN_BUFFER, &kept_count);
+  if (kept_count != 0) return refusePicture("the bytes hold more than one picture");
   const SSysMEMBuffer& memory = info.UsrData.sSystemBuffer;
   const SizePx decoded_px = {uint32_t(memory.iWidth), uint32_t(memory.iHeight)};
   if (decoded_px != size_px) {
     return refusePicture(
         strCat("a picture of ", textOf(decoded_px), "; expected is ", textOf(size_px)));
   }
-  needs_idr_ = false;
   return VideoPicture{.size_px = size_px,
                       .y = planes[0],
                       .cb = planes[1],

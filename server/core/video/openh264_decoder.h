@@ -11,6 +11,7 @@ class ISVCDecoder;
 namespace viewloom {
 
 // Never conceals damage: a picture is right, or refused. Sizes are checked before memory is taken.
+// After an error the library begins anew, so that nothing of the refused bytes is left in it.
 class OpenH264Decoder final : public VideoDecoder {
  public:
   // RESOURCE_EXHAUSTED if memory is missing.
@@ -28,9 +29,12 @@ class OpenH264Decoder final : public VideoDecoder {
 
   explicit OpenH264Decoder(DecoderPtr decoder);
   absl::Status start();
-  absl::Status check(std::span<const uint8_t> access_unit, SizePx size_px);
+  void restart();
+  absl::Status check(std::span<const uint8_t> access_unit, SizePx size_px) const;
+  absl::StatusOr<VideoPicture> decodeChecked(std::span<const uint8_t> access_unit, SizePx size_px);
 
   const DecoderPtr decoder_;
+  bool is_started_ = true;
   bool needs_idr_ = true;
 };
 

@@ -8,6 +8,7 @@
 #include "video/annex_b.h"
 #include "video/h264_parameters.h"
 #include "video/unit_bits.h"
+#include "video/video_decoder.h"
 #include "video/video_encoder.h"
 
 namespace viewloom {
@@ -104,9 +105,9 @@ class StillSplitter {
     VIEWLOOM_RETURN_IF_ERROR(parameters.status());
     VIEWLOOM_RETURN_IF_ERROR(checkStillColor(parameters->color));
     VIEWLOOM_RETURN_IF_ERROR(checkStillSize(parameters->size_px, row_, whole_px_));
-    if (parameters->reference_count > kStillReferencesMax) {
+    if (parameters->reference_count > kVideoReferencesMax) {
       return refuseStill(strCat("keeps ", parameters->reference_count, " pictures"),
-                         strCat("accepted are up to ", kStillReferencesMax,
+                         strCat("accepted are up to ", kVideoReferencesMax,
                                 ": set the number of reference frames to 1"));
     }
     begin_ = unit.data() - kStartCodeBytes;

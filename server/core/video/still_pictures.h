@@ -17,10 +17,9 @@ struct StillPicture {
   SizePx size_px;                        // as that set says: even
 };
 
-// Slices of a picture. Slices that repeat each other would multiply the time of decoding.
-inline constexpr uint32_t kStillSlicesMax = 16;
-// Pictures that a decoder has to keep, by the sequence parameter set.
-inline constexpr uint32_t kStillReferencesMax = 4;
+// Slices of a picture. Each may go on to the end of the picture, over those that follow: so many
+// times a picture may have to be decoded.
+inline constexpr uint32_t kStillSlicesMax = 4;
 
 // Size of all pictures of a plane together: even sides.
 SizePx stillSize(SizePx plane_px);

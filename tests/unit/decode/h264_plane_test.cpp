@@ -125,6 +125,12 @@ TEST(H264Plane, refusesRepeatedSlices) {
   EXPECT_THAT(refusal(twice, {64, 64}), HasSubstr("slice 1 of a picture at macroblock 0"));
 }
 
+// Each slice may go on to the end of the picture, which is then decoded so many times.
+TEST(H264Plane, refusesManySlices) {
+  EXPECT_THAT(refusal(sampleH264({640, 512}, {.slice_count = 5}), {640, 512}),
+              HasSubstr("accepted are up to 4 slices"));
+}
+
 TEST(H264Plane, refusesDamageOrDecodesInFull) {
   const SizePx size_px{160, 120};
   const Bytes whole = sampleH264(size_px, {.picture_rows = 64, .slice_count = 2});

@@ -173,6 +173,49 @@ TEST(OpenH264, refusesAPictureWhoseReferenceIsMissing) {
   EXPECT_TRUE(decoder->decode(units[0], size_px).ok());
 }
 
+// Libraries before 2.6 then mix memory of two sizes.
+TEST(OpenH264, refusesParametersBeforeAPictureThatRefersToOthers) {
+  const SizePx size_px{64, 64};
+  const auto encoder = encoderOf({.size_px = size_px});
+  const std::vector<AccessUnit> units = codedStack(*encoder, 2);
+  AccessUnit mixed = {0, 0, 0, 1};
+  const NalUnit parameters = nalUnits(units[0]).front();
+  mixed.insert(mixed.end(), parameters.bytes.begin(), parameters.bytes.end());
+  mixed.insert(mixed.end(), units[1].begin(), units[1].end());
+  const auto decoder = newDecoder();
+  EXPECT_TRUE(decoder->decode(units[0], size_px).ok());
+  const absl::Status refused = decoder->decode(mixed, size_px).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(refused.message()), testing::HasSubstr("sequence parameters before"));
+}
+
+// The second one would come out as the next.
+TEST(OpenH264, refusesTwoPicturesAtOnce) {
+  const SizePx size_px{64, 64};
+  const auto encoder = encoderOf({.size_px = size_px});
+  const AccessUnit first = coded(*encoder, SamplePicture::flat(size_px, 20, 90, 90), {});
+  const AccessUnit second = coded(*encoder, SamplePicture::flat(size_px, 200, 90, 90), {});
+  AccessUnit both = first;
+  both.insert(both.end(), second.begin(), second.end());
+  const auto decoder = newDecoder();
+  EXPECT_FALSE(decoder->decode(both, size_px).ok());
+  const auto next = decoder->decode(first, size_px);
+  ASSERT_TRUE(next.ok()) << next.status();
+  EXPECT_NEAR(next->y[0], 20, 1);
+}
+
+// A stream may say that its decoder has to keep 16.
+TEST(OpenH264, refusesStreamsThatKeepManyPictures) {
+  // Baseline, level 1.0: numbers 0 (id), 0 (frame number), 2 (order), then the count of references,
+  // no gaps, 0 and 0 (16x16 px), whole frames, no cropping, no further facts.
+  const AccessUnit four = {0, 0, 1, 0x67, 66, 0xC0, 10, 0xD9, 0x5E, 0x40, 0, 0, 1, 0x65, 0x88};
+  const AccessUnit five = {0, 0, 1, 0x67, 66, 0xC0, 10, 0xD9, 0x9E, 0x40, 0, 0, 1, 0x65, 0x88};
+  EXPECT_THAT(std::string(newDecoder()->decode(five, {16, 16}).status().message()),
+              testing::HasSubstr("it keeps 5 pictures; accepted are up to 4"));
+  EXPECT_THAT(std::string(newDecoder()->decode(four, {16, 16}).status().message()),
+              testing::HasSubstr("damaged"));
+}
+
 TEST(OpenH264, refusesPicturesOfAnotherSizeBeforeItTakesMemory) {
   const auto encoder = encoderOf({.size_px = {4096, 2176}});
   const AccessUnit unit = codedStack(*encoder, 1).front();
