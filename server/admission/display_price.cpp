@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/str_cat.h"
 #include "display/atlas_layout.h"
@@ -49,12 +50,12 @@ uint64_t encodedBytes(const EncodingSpec& encoding, uint64_t area_px) {
                     (encoding.with_depth_codes ? kCodePixelBytes : 0));
 }
 
-// Pictures of a video that wait to be coded, and what an encoder keeps.
-uint64_t videoBytes(const TileGrid& grid) {
+// Stack of the views of a video; none for other encodings.
+std::optional<VideoStack> stackOf(const TileGrid& grid, const EncodingSpec& encoding) {
+  if (encoding.color != BandEncoding::kH264) return std::nullopt;
   const absl::StatusOr<VideoStack> stack = planVideoStack(grid.tile_size_px, grid.view_count);
-  if (!stack.ok()) return 0;  // refused elsewhere
-  const SizePx picture_px = stack->pictureSize();
-  return videoEncoderBytes(picture_px) + picture_px.area() * stack->picture_count * 3 / 2;
+  if (!stack.ok()) return std::nullopt;  // refused elsewhere
+  return *stack;
 }
 
 uint64_t makingBytes(const EncodingSpec& encoding, uint64_t area_px) {
@@ -92,13 +93,15 @@ double pictureRate(const DisplaySpec& spec, double stream_rate_hz) {
 
 DisplayPrice displayPrice(const DisplaySpec& spec, const EncodingSpec& encoding) {
   const TileGrid grid = tileGridOf(spec);
-  const uint64_t area_px = grid.width_px * grid.height_px;
+  // Cells of a stack are larger than small views, and some may be empty.
+  const std::optional<VideoStack> stack = stackOf(grid, encoding);
+  const uint64_t area_px =
+      stack ? stack->pictureSize().area() * stack->picture_count : grid.width_px * grid.height_px;
   const uint64_t samples =
       std::max(spec.filter.sample_count, spec.lens ? spec.lens->walked_count : 1U);
   return {.rays_bytes = kRaysCopies * samples * grid.view_count * sizeof(abi::ViewParams),
           .encoded_bytes = encodedBytes(encoding, area_px),
-          .making_bytes = makingBytes(encoding, area_px) +
-                          (encoding.color == BandEncoding::kH264 ? videoBytes(grid) : 0)};
+          .making_bytes = makingBytes(encoding, area_px) + (stack ? videoAtlasBytes(*stack) : 0)};
 }
 
 absl::StatusOr<Reservation> admitDisplay(MemoryBudget& budget, const DisplaySpec& spec,

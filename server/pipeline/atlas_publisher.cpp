@@ -130,6 +130,14 @@ void AtlasPublisher::begin(AtlasRunPtr run) {
   of_picture.push_back({std::move(run)});
 }
 
+bool AtlasPublisher::isOnItsWay(const std::string& picture_key) {
+  std::lock_guard lock(mutex_);
+  const auto of_picture = pending_.find(picture_key);
+  return of_picture != pending_.end() &&
+         std::ranges::any_of(of_picture->second,
+                             [](const Pending& pending) { return !pending.is_complete; });
+}
+
 void AtlasPublisher::complete(const AtlasRun& run) {
   publishInOrder(run);
   on_complete_(run);

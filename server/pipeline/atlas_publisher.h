@@ -25,6 +25,8 @@ class AtlasPublisher {
       : links_(links), on_complete_(std::move(on_complete)) {}
 
   void begin(AtlasRunPtr run);
+  // Whether an atlas of the picture has begun and is not whole yet.
+  bool isOnItsWay(const std::string& picture_key);
   // The run's making has begun: its displays hear of their atlases. From one thread a picture.
   void open(AtlasRun& run) const;
   // Every strip of the run is packed.

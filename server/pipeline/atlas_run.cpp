@@ -2,6 +2,7 @@
 #include "pipeline/atlas_run.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "base/check.h"
@@ -63,6 +64,23 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
     rows_left_ += strips.rowsOf(strip).row_count * packs.size();
   }
   claim.is_tracked = isTracked();
+}
+
+void AtlasRun::reserveVideo(MemoryBudget& memory, bool has_older) {
+  uint64_t bytes = 0;
+  for (const AtlasOutput& output : outputs) {
+    if (output.video) bytes += videoAtlasBytes(*picture->layout->stack);
+  }
+  if (bytes == 0) return;
+  std::optional<Reservation> reserved =
+      memory.tryReserve({.use = MemoryUse::kAtlases, .bytes = bytes});
+  if (!reserved) {
+    throw EngineOutOfMemory(
+        "the server's memory.budget has no room left to code a video of this size; choose a "
+        "smaller display, color as JPEG, or try again later");
+  }
+  video_memory_ = *std::move(reserved);
+  is_last_of_video_ = has_older || memory.leftFor("") < bytes;
 }
 
 void AtlasRun::noteTraced(const RayCounts& strip_counts, int64_t now_ns) {

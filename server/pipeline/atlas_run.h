@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "admission/memory_budget.h"
 #include "base/trace_method.h"
 #include "encode/encoded_band.h"
 #include "engine/engine.h"
@@ -53,8 +54,14 @@ class AtlasRun {
 
   bool isTracked() const { return outputs.front().display->eyes != nullptr; }
   // Its display waits for the whole atlas before the next begins: that is seen by the eyes as they
-  // are then, and no other display waits for more than one of them. So do displays with a rate.
-  bool isWaitedFor() const { return isTracked() || job.tick; }
+  // are then, and no other display waits for more than one of them. So do displays with a rate, and
+  // those of a video that has an atlas on its way: pictures that wait to be coded take memory.
+  bool isWaitedFor() const { return isTracked() || job.tick || is_last_of_video_; }
+  // Takes the memory of its video, if it has one, before it begins. `has_older`: an older atlas of
+  // the picture is on its way. Throws EngineOutOfMemory.
+  void reserveVideo(MemoryBudget& memory, bool has_older);
+  // All its pictures are coded.
+  void releaseVideo() { video_memory_.release(); }
 
   // Strips are made: what all of them have seen, together.
   void noteTraced(const RayCounts& strip_counts, int64_t now_ns);
@@ -86,6 +93,8 @@ class AtlasRun {
   int64_t tracedNs() const;
 
  private:
+  Reservation video_memory_;             // of pictures that wait, and of encoders
+  bool is_last_of_video_ = false;        // does not change once the run has begun
   std::atomic<uint64_t> rows_left_ = 0;  // to be packed, of all planes
   std::atomic<bool> is_given_up_ = false;
   mutable std::mutex mutex_;

@@ -145,6 +145,7 @@ void EncodePool::finish(EncodeTask task) {
 
 void EncodePool::finishRows(const AtlasRunPtr& run, uint32_t row_count) {
   if (!run->noteEncoded(row_count) || run->isGivenUp()) return;
+  run->releaseVideo();  // the next one may need it
   const absl::Status status = withinMemory([&] { publisher_.complete(*run); });
   if (!status.ok()) publisher_.giveUp(*run, status);
 }

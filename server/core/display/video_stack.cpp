@@ -102,4 +102,9 @@ uint64_t videoEncoderBytes(SizePx picture_px) {
   return kAlways_bytes + kPixel_bytes * picture_px.area();
 }
 
+uint64_t videoAtlasBytes(const VideoStack& stack) {
+  const SizePx picture_px = stack.pictureSize();
+  return videoEncoderBytes(picture_px) + picture_px.area() * stack.picture_count * 3 / 2;
+}
+
 }  // namespace viewloom

@@ -50,6 +50,18 @@ TEST(DisplayPrice, countsPicturesOfAVideoAndItsEncoder) {
   EXPECT_EQ(displayPrice(quiltOf(1024), fine).encoded_bytes, area_px);
 }
 
+// 2500 views of 1x64 px lie in cells of 16x64 px.
+TEST(DisplayPrice, countsTheCellsOfSmallViewsInAVideo) {
+  DisplaySpec spec;
+  spec.kind = QuiltSpec{.columns = 50, .rows = 50, .size_px = {50, 3200}};
+  spec = completeDisplaySpec(spec).value();
+  const uint64_t cells_px = uint64_t{2500} * 16 * 64;
+  const DisplayPrice video =
+      displayPrice(spec, {.color = BandEncoding::kH264, .with_depth = true, .video_qp = 30});
+  EXPECT_GE(video.making_bytes, 8 * cells_px + cells_px * 3 / 2);
+  EXPECT_GE(video.encoded_bytes, cells_px / 2 + 4 * cells_px);
+}
+
 TEST(DisplayPrice, growsWithTheSamplesOfALens) {
   DisplaySpec spec = quiltOf(1024);
   const uint64_t sharp_bytes = displayPrice(spec, {}).rays_bytes;

@@ -63,5 +63,15 @@ TEST_F(AtlasPublisherTest, saysThatItCouldNotGiveUp) {
   EXPECT_TRUE(unwatched->isGivenUp());
 }
 
+TEST_F(AtlasPublisherTest, knowsWhatIsOnItsWay) {
+  const AtlasRunPtr run = runOf("picture", nullptr);
+  EXPECT_FALSE(publisher_.isOnItsWay("picture"));
+  publisher_.begin(run);
+  EXPECT_TRUE(publisher_.isOnItsWay("picture"));
+  EXPECT_FALSE(publisher_.isOnItsWay("another"));
+  publisher_.complete(*run);
+  EXPECT_FALSE(publisher_.isOnItsWay("picture"));
+}
+
 }  // namespace
 }  // namespace viewloom::atlas_publisher_test
