@@ -148,7 +148,9 @@ export class Around {
     const eye = this.rig.isKnown ? this.rig.message : kPlainEye;
     const note = {view: this.rig.isKnown ? this.view : Math.floor(this.total / 2),
       isPlain: !this.rig.isKnown};
-    if (this.#poses.put([eye], note) && this.rig.isKnown) this.size.noteMoved(performance.now());
+    if (this.#poses.put([eye], note) && this.rig.isKnown) {
+      this.size.noteMoved(performance.now(), this.rig.isMoved ? 'free' : 'sideways');
+    }
     if (!this.late.isOn) return;
     if (before_ms !== null) this.late.notePace(now_ms - before_ms);
     this.#stage.drawNow();

@@ -137,7 +137,7 @@ export class XrStay {
       this.#stream.open(this.#request());
     }
     const messages = eyes.map(({pose, fov}) => cameraMessage(pose, fov));
-    if (this.#poses.put(messages, {})) this.#size.noteMoved(performance.now());
+    if (this.#poses.put(messages, {})) this.#size.noteMoved(performance.now(), 'free');
   }
 
   #end() {
