@@ -26,21 +26,21 @@ export class Around {
   #stage;
   #poses;
   #isRunning = false;
+  #isLed = false;     // the next frame comes by look()
   #onward_ms = null;  // when the step before this one was, if it led to this one
   #display = '';     // that is asked for, but for its size
   #fixed = null;     // the share of the canvas that the visitor chose; null = automatic
-  #sent = '';
   #shows = null;     // {atlas, camera, view}: the newest of the eye's own pictures
   active = false;
 
   // stage: whose canvas is looked at; send(message): whether it went; onSize(): the picture shall
-  // have another size
+  // have another size, or come without depth
   constructor(stage, send, onSize) {
     this.#stage = stage;
     this.#poses = new EyePoses(send);
     this.rig = new EyeRig();
     this.size = new EyeSize(onSize);
-    this.late = new LatePicture();
+    this.late = new LatePicture(undefined, onSize);
     this.controls = new RigControls(stage.canvas, this.rig, () => this.run());
   }
 
@@ -93,10 +93,12 @@ export class Around {
     this.run();
   }
 
-  // position: in the cone, 0..1
-  look(position) {
+  // position: in the cone, 0..1; isLed: the next frame brings another. The pose goes within this
+  // frame.
+  look(position, isLed = false) {
     this.rig.position = position;
-    this.run();
+    this.#isLed = isLed;
+    this.#step(performance.now());
   }
 
   takeClock(reply) { this.#poses.takeClock(reply); }
@@ -131,11 +133,11 @@ export class Around {
 
   // Follows the eye at the screen's rate, until the server has shown where it stands.
   run() {
-    if (this.#isRunning || !this.active) return;
+    if (this.#isLed || this.#isRunning || !this.active) return;
     this.#isRunning = true;
     requestAnimationFrame((now_ms) => {
       this.#isRunning = false;
-      this.#step(now_ms);
+      if (!this.#isLed) this.#step(now_ms);
     });
   }
 

@@ -21,6 +21,7 @@ const kRefused = 1008;  // close code
 export class AtlasStream {
   #socket = null;
   #timer = 0;
+  #listening = 0;  // timer
   #failures = 0;
   #heard_ms = 0;  // when the newest message came
   #asked_ms = 0;  // when the newest question for one went
@@ -36,8 +37,6 @@ export class AtlasStream {
   // clock_probe)
   constructor(handlers) {
     this.handlers = handlers;
-    setInterval(() => this.#listen(), kTick_ms);
-    addEventListener('online', () => this.#hurry());
   }
 
   // asked: {stream, display, encoding}, the latter messages as JSON
@@ -47,12 +46,16 @@ export class AtlasStream {
     this.#isClosed = false;
     this.#failures = 0;
     this.#missing_ms = null;
+    this.#listening = setInterval(() => this.#listen(), kTick_ms);
+    addEventListener('online', this.#hurry);
     this.#connect();
   }
 
   close() {
     clearTimeout(this.#timer);
     this.#timer = 0;
+    clearInterval(this.#listening);
+    removeEventListener('online', this.#hurry);
     this.#isClosed = true;
     const socket = this.#socket;
     this.#socket = null;
@@ -144,7 +147,7 @@ export class AtlasStream {
   }
 
   #giveUp(error) {
-    this.#isClosed = true;
+    this.close();
     this.handlers.onGivenUp(error);
   }
 
@@ -173,14 +176,14 @@ export class AtlasStream {
   }
 
   // There is a network again: what was open before it went is not trusted, nothing is waited for.
-  #hurry() {
+  #hurry = () => {
     if (this.#socket) {
       this.#abandon(true);
     } else if (this.#timer) {
       clearTimeout(this.#timer);
       this.#connect();
     }
-  }
+  };
 
   async #retry(opened, code) {
     // Pages may not read why an upgrade was refused; a plain request to the same URL tells.

@@ -62,6 +62,7 @@ export class Decoder {
   #worker = null;
   #decoding = null;
   #waiting = null;
+  #isClosed = false;
 
   // onDecoded(atlas with bitmap or planes, release() of them, and decode_ms), onDropped(atlas),
   // onVideoFailed(reason): not called where all is asked for as JPEG
@@ -83,7 +84,16 @@ export class Decoder {
     }
   }
 
+  // Nothing comes any more, not even what is being decoded.
+  close() {
+    this.#isClosed = true;
+    this.#waiting = null;
+    this.#worker?.terminate();
+    this.#worker = null;
+  }
+
   decode(atlas) {
+    if (this.#isClosed) return;
     if (this.#decoding) {
       if (this.#waiting) this.onDropped(this.#waiting);
       this.#waiting = atlas;
@@ -107,6 +117,7 @@ export class Decoder {
   }
 
   #finish({error, ...made}) {
+    if (this.#isClosed) return;
     const atlas = this.#decoding;
     this.#decoding = null;
     if (this.#waiting) {
@@ -130,6 +141,6 @@ export class Decoder {
     bitmap?.close();
     if (!planes) return;
     if (this.#worker) this.#worker.postMessage({planes}, [planes.buffer]);
-    else recycle(planes);
+    else if (!this.#isClosed) recycle(planes);
   }
 }

@@ -41,6 +41,8 @@ export class EyeSize {
     this.#full = {width, height};
   }
 
+  get fullWidth_px() { return this.#full.width; }
+
   get #steps() {
     const least = Math.min(1, kHeightMin_px / this.#full.height);
     return [...kScales.filter((scale) => scale > least), least].filter(

@@ -12,8 +12,10 @@ export class LatePicture {
   #reprojector = null;
   #slow = 0;
 
-  // asked: the page's parameter `reprojection`, 'on' or 'off'; else where there is a GPU
-  constructor(asked = pageParameters().get('reprojection')) {
+  // asked: the page's parameter `reprojection`, 'on' or 'off'; else where there is a GPU. onOff():
+  // it was on, and is not any more
+  constructor(asked = pageParameters().get('reprojection'), onOff = () => {}) {
+    this.onOff = onOff;
     if (asked === 'off') return;
     const gl = this.#canvas.getContext('webgl2', {alpha: false, antialias: false, depth: true});
     if (!gl || (asked !== 'on' && !isOnGpu(gl))) return;
@@ -23,7 +25,7 @@ export class LatePicture {
     } catch (error) {
       console.warn(`no late reprojection: ${error.message}`);
     }
-    this.#canvas.addEventListener('webglcontextlost', () => { this.#reprojector = null; });
+    this.#canvas.addEventListener('webglcontextlost', () => this.#end());
   }
 
   // Whether pictures shall come with depth.
@@ -52,6 +54,12 @@ export class LatePicture {
     this.#slow = taken_ms > kSlow_ms ? this.#slow + 1 : 0;
     if (this.#slow < kSlowCount) return;
     this.clear();
+    this.#end();
+  }
+
+  #end() {
+    if (!this.isOn) return;
     this.#reprojector = null;
+    this.onOff();
   }
 }

@@ -19,7 +19,7 @@ export class Look {
   #fingers = new Set();
   #active = true;
 
-  // onLook(position): also again and again while it goes somewhere
+  // onLook(position, isOnItsWay): also in each frame while it is on its way
   constructor(canvas, slider, onLook) {
     this.onLook = onLook;
     this.slider = slider;
@@ -107,8 +107,8 @@ export class Look {
     const settled = !this.swaying && Math.abs(this.#target - this.#position) < kSettled;
     if (settled) this.#position = this.#target;
     if (!this.slider.matches(':active')) this.slider.valueAsNumber = this.#position;
-    this.onLook(this.#position);
     this.#running = !settled && this.#active;
+    this.onLook(this.#position, this.#running);
     if (this.#running) requestAnimationFrame((next_ms) => this.#step(next_ms));
   }
 }

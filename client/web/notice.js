@@ -5,6 +5,7 @@ const kNoticeTime_ms = 6000;
 
 const byId = (id) => document.getElementById(id);
 let timer = 0;
+let waiting = '';
 
 // '' takes it away. kind: '' or 'bad'.
 export function notice(text, kind = '', time_ms = kNoticeTime_ms) {
@@ -17,6 +18,17 @@ export function notice(text, kind = '', time_ms = kNoticeTime_ms) {
 // If that is what stands there.
 export function takeBack(text) {
   if (byId('notice').textContent === text) notice('');
+}
+
+// The connection is lost, for a reason, and comes back by itself.
+export function noticeWaiting(reason) {
+  waiting = `${reason} Trying again.`;
+  notice(waiting, 'bad', Infinity);
+}
+
+// It is back.
+export function endWaiting() {
+  takeBack(waiting);
 }
 
 // For those who do not see the picture.

@@ -19,8 +19,8 @@ import {offerFullScreen} from './full_screen.js';
 import {Look} from './look.js';
 import {offerModeKeys} from './mode_keys.js';
 import {Modes} from './modes.js';
-import {notice} from './notice.js';
-import {setState, shapePicture} from './page_state.js';
+import {endWaiting, notice, noticeWaiting} from './notice.js';
+import {nameView, setState, shapePicture} from './page_state.js';
 import {PanelMode} from './panel_mode.js';
 import {Patience} from './patience.js';
 import {labelReduced} from './reduced_label.js';
@@ -95,11 +95,11 @@ function ask() {
   if (watching) stream.change(display.asked(watching));
 }
 
-// Has the eye look from where it stands in the mode that is on.
-function aim() {
+// Has the eye look from where it stands in the mode that is on. isOnItsWay: as look.js says it
+function aim(isOnItsWay = false) {
   if (!display.isEye) return;
-  const isSingle = modes.mode === 'single';
-  around.look(isSingle ? single.view / Math.max(1, around.total - 1) : stage.position);
+  if (modes.mode === 'single') around.look(single.view / Math.max(1, around.total - 1));
+  else around.look(stage.position, isOnItsWay);
 }
 
 const decoder = new Decoder(
@@ -114,9 +114,8 @@ const decoder = new Decoder(
       budget.show(atlas.header.depth_budget, layout);
       outside.show(atlas.header.views_outside, layout);
       commands.show(display.elsewhere(watching));
-      labelReduced(byId('reduced'), layout.tile_size.width, display.fullWidth_px,
-          display.isAutomatic);
-      nameView();
+      labelReduced(layout.tile_size.width, display.fullWidth_px, display.isAutomatic);
+      nameView(stage.position, viewCount());
       shapePicture(layout, modes.mode);
     },
     (atlas) => {
@@ -133,14 +132,14 @@ const stream = new AtlasStream({
   onLive() {
     autoDetail.restart();
     around.restart();
-    notice('');
+    endWaiting();
   },
   onClock(reply) { around.takeClock(reply); },
   onAsked() { patience.begin(); },
   onWaiting(reason) {
     patience.end();
     setState('reconnecting');
-    notice(`${reason} Trying again.`, 'bad', Infinity);
+    noticeWaiting(reason);
   },
   onRefused(error) { notice(error.message, 'bad'); },
   onGivenUp({message}) {
@@ -149,15 +148,22 @@ const stream = new AtlasStream({
   },
 });
 
-const look = new Look(byId('stage'), byId('view'), (position) => {
+const look = new Look(byId('stage'), byId('view'), (position, isOnItsWay) => {
   stage.look(position);
-  aim();
-  nameView();
+  aim(isOnItsWay);
+  nameView(stage.position, viewCount());
 });
 new Tilt(byId('tilt'), (position) => look.take(position));
-new XrButton(byId('vr'), (...eyes) => display.inHeadset(watching, ...eyes), rest,
-    () => watching && watch(watching));
-const single = new SingleMode(stage, aim);
+new XrButton(byId('vr'), {
+  asked: (...eyes) => display.inHeadset(watching, ...eyes),
+  onEnter: rest,
+  onShown(latency, ...widths_px) {
+    figures.noteMotion(latency);
+    labelReduced(...widths_px, true);
+  },
+  onLeave: () => watching && watch(watching),
+});
+const single = new SingleMode(stage, () => aim());
 const weaver = new Weaver(byId('woven'));
 const panelMode = new PanelMode(weaver, () => stage.invalidate());
 const eyeMode = new EyeMode(weaver, () => panelMode.calibration, () => stage.invalidate());
@@ -207,13 +213,6 @@ function offerModes() {
   modes.restrict(display.modes, display.modesReason);
 }
 
-function nameView() {
-  const count = viewCount();
-  const view = Math.round(stage.position * (count - 1));
-  byId('ruler-view').textContent = count ? `view ${view} of 0–${count - 1}` : 'view –';
-  byId('view').setAttribute('aria-valuetext', byId('ruler-view').textContent);
-}
-
 // Nothing can be shown: what showTrouble() takes.
 function refuse(trouble) {
   setState('refused');
@@ -223,6 +222,7 @@ function refuse(trouble) {
 
 function watch(name) {
   watching = name;
+  notice('');
   endTrouble();
   isPublisherGone = false;
   patience.end();

@@ -4,7 +4,8 @@
 const kFullShare = 0.97;  // of the full width; the rest is rounding
 
 // width_px: of a view as it came; full_px: in full detail; isAutomatic: by the page's own choice
-export function labelReduced(label, width_px, full_px, isAutomatic) {
+export function labelReduced(width_px, full_px, isAutomatic) {
+  const label = document.getElementById('reduced');
   const isReduced = width_px < kFullShare * full_px;
   label.hidden = !isReduced;
   if (!isReduced) return;

@@ -6,12 +6,11 @@ import {XrStay} from './xr_session.js';
 export class XrButton {
   #stay = null;
 
-  // asked(eye_size, count): what /ws is asked for; onEnter(), onLeave()
-  constructor(button, asked, onEnter, onLeave) {
+  // handlers: asked(eye_size, count), what /ws is asked for; onEnter(), onLeave(); onShown() of
+  // XrStay
+  constructor(button, handlers) {
     this.button = button;
-    this.asked = asked;
-    this.onEnter = onEnter;
-    this.onLeave = onLeave;
+    this.handlers = handlers;
     button.addEventListener('click', () => this.#press());
     navigator.xr?.addEventListener?.('devicechange', () => this.#offer());
     this.#offer();
@@ -31,21 +30,22 @@ export class XrButton {
     this.button.disabled = true;
     try {
       this.#stay = await XrStay.begin(navigator.xr, {
-        asked: this.asked,
+        ...this.handlers,
         onProblem: (sentence) => notice(sentence, 'bad'),
-        onEnd: () => this.#leave(),
+        onEnd: (problem) => this.#leave(problem),
       });
       this.button.textContent = 'Leave VR';
-      this.onEnter();
+      this.handlers.onEnter();
     } catch (error) {
       notice(`VR did not begin: ${error.message}`, 'bad');
     }
     this.button.disabled = false;
   }
 
-  #leave() {
+  #leave(problem) {
     this.#stay = null;
     this.button.textContent = 'Enter VR';
-    this.onLeave();
+    this.handlers.onLeave();
+    if (problem) notice(problem, 'bad');
   }
 }

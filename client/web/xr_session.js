@@ -30,6 +30,7 @@ export class XrStay {
   #layer;
   #gl;
   #asked;
+  #onShown;
   #reprojector;
   #stream;
   #decoder;
@@ -39,10 +40,12 @@ export class XrStay {
   #focal_m = kUsualFocal_m;
   #count = 0;  // of eyes
   #timer;
+  #problem = '';  // that ended it
   #isOver = false;
 
-  // asked(eye_size, count): what /ws is asked for; onProblem(sentence); onEnd()
-  static async begin(xr, {asked, onProblem, onEnd}) {
+  // asked(eye_size, count): what /ws is asked for; onShown(latency of EyePoses, width and full
+  // width of an eye's picture in px); onProblem(sentence); onEnd(sentence): why, '' = it was left
+  static async begin(xr, handlers) {
     const session = await xr.requestSession('immersive-vr');
     try {
       const canvas = document.createElement('canvas');
@@ -52,16 +55,16 @@ export class XrStay {
       const layer = new XRWebGLLayer(session, gl, {antialias: false});
       await session.updateRenderState({baseLayer: layer});
       const space = await session.requestReferenceSpace('local');
-      return new XrStay({session, space, layer, gl, asked, onProblem, onEnd});
+      return new XrStay({session, space, layer, gl, ...handlers});
     } catch (error) {
       await session.end();
       throw error;
     }
   }
 
-  constructor({session, space, layer, gl, asked, onProblem, onEnd}) {
+  constructor({session, space, layer, gl, asked, onShown, onProblem, onEnd}) {
     [this.#session, this.#space, this.#layer, this.#gl] = [session, space, layer, gl];
-    this.#asked = asked;
+    [this.#asked, this.#onShown] = [asked, onShown];
     this.#reprojector = new Reprojector(gl);
     this.#stream = new AtlasStream({
       onAtlas: (atlas) => this.#decoder.decode(atlas),
@@ -70,6 +73,7 @@ export class XrStay {
       onClock: (reply) => this.#poses.takeClock(reply),
       onWaiting: (reason) => onProblem(reason),
       onRefused: ({message}) => onProblem(message),
+      onGivenUp: ({message}) => this.#giveUp(message),
     });
     this.#decoder = new Decoder((atlas) => this.#take(atlas),
         (atlas) => this.#stream.shown(atlas.header.delivery));
@@ -78,15 +82,18 @@ export class XrStay {
     this.#timer = setInterval(() => this.#tick(), kLook_ms);
     session.addEventListener('end', () => {
       this.#end();
-      onEnd();
+      onEnd(this.#problem);
     });
     session.requestAnimationFrame((time_ms, frame) => this.#draw(time_ms, frame));
   }
 
-  // Motion to picture, see EyePoses.
-  get latency() { return this.#poses.latency; }
-
   leave() { return this.#session.end(); }
+
+  // Nothing will ever be shown.
+  #giveUp(problem) {
+    this.#problem = problem;
+    this.leave().catch(() => {});  // it may end already
+  }
 
   #request() { return this.#asked(this.#size.size, this.#count); }
 
@@ -104,6 +111,7 @@ export class XrStay {
       this.#reprojector.take(atlas, layout.views.map(cameraOf));
       this.#poses.shown(atlas.header);
       this.#size.noteShown(atlas.header, performance.now());
+      this.#onShown(this.#poses.latency, layout.tile_size.width, this.#size.fullWidth_px);
     }
     atlas.release();
   }
@@ -144,6 +152,7 @@ export class XrStay {
     this.#isOver = true;
     clearInterval(this.#timer);
     this.#stream.close();
+    this.#decoder.close();
     this.#reprojector.clear();
     this.#gl.getExtension('WEBGL_lose_context')?.loseContext();
   }

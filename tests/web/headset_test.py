@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The page in an emulated headset: npm's iwer in headless Chromium, before ray_scene.py."""
-import io
 import os
 import pathlib
+import re
 import sys
 import tempfile
 import time
@@ -17,6 +17,7 @@ from ray_server import RayServer
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "node"))
 import npm  # noqa: E402
 
+FACTS = "document.getElementById('facts').textContent"
 IWER = "iwer@2.5.0"
 EYE = (320, 320)  # px
 # The headset's canvas covers the window, half of it for each eye.
@@ -52,10 +53,13 @@ class Headset(unittest.TestCase):
         self.browser.open(self.server.url + "?stream=rays")
         self.browser.wait_for("document.documentElement.dataset.state === 'live'")
 
-    def enter(self):
+    def press(self):
         self.browser.wait_for("!document.getElementById('vr').hidden")
         self.server.poses.clear()
         self.browser.evaluate("document.getElementById('vr').click()")
+
+    def enter(self):
+        self.press()
         self.browser.wait_for("document.getElementById('vr').textContent === 'Leave VR'")
         self.wait_for(lambda: self.pairs())
 
@@ -123,6 +127,32 @@ class Headset(unittest.TestCase):
         self.browser.evaluate("headset.controllers.left.updateAxes('thumbstick', 0, 0)")
         self.browser.evaluate("headset.controllers.right.updateAxes('thumbstick', 1, 0)")
         self.wait_for(lambda: self.newest()[0]["pose"]["orientation"]["y"] < -0.2)
+
+    def test_motion_to_picture_is_told_beside_the_headset(self):
+        self.server.delay_s = 0.4
+        self.enter()
+        total_ms, x_m = 0, 0.0
+        deadline = time.monotonic() + 60
+        while total_ms < 390:
+            self.assertLess(time.monotonic(), deadline, self.browser.evaluate(FACTS))
+            x_m += 0.01
+            self.browser.evaluate(f"headset.position.set({x_m}, 1.6, 0)")
+            found = re.search(r"(\d+) ms: \d+ to the server", self.browser.evaluate(FACTS))
+            total_ms = int(found.group(1)) if found else 0
+            time.sleep(0.05)
+
+    def test_a_refusal_ends_the_stay_and_is_said(self):
+        self.server.refusal_of_pairs = {"code": "PERMISSION_DENIED", "field": "stream",
+                                        "message": "This stream is not for headsets."}
+        self.press()
+        self.browser.wait_for("document.getElementById('notice').textContent"
+                              ".includes('not for headsets')")
+        self.browser.wait_for("document.documentElement.dataset.state === 'live'")
+        self.assertEqual(self.browser.evaluate("document.getElementById('vr').textContent"),
+                         "Enter VR")
+        self.assertIn("not for headsets", self.browser.evaluate(
+            "document.getElementById('notice').textContent"))
+        self.assertEqual(self.browser.messages, [])
 
     def test_the_session_ends_cleanly_and_the_page_goes_on(self):
         self.enter()

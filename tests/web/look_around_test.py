@@ -16,6 +16,29 @@ from ray_server import CONE_RAD, RayServer
 
 STAGE = "document.getElementById('stage')"
 VIEWS = 48
+# Poses as they go, and the contexts of WebGL.
+RECORD = """
+window.poses = [];
+const send = WebSocket.prototype.send;
+WebSocket.prototype.send = function(text) {
+  if (String(text).startsWith('{"eye_poses"')) poses.push(text);
+  send.call(this, text);
+};
+window.contexts = [];
+const getContext = HTMLCanvasElement.prototype.getContext;
+HTMLCanvasElement.prototype.getContext = function(kind, ...others) {
+  const context = getContext.call(this, kind, ...others);
+  if (context && kind === 'webgl2' && !contexts.includes(context)) contexts.push(context);
+  return context;
+};"""
+# The pointer moves; resolves with the number of poses that have gone by the end of the next frame.
+MOVE = """new Promise((resolve) => requestAnimationFrame(() => {
+  const {x, y, width, height} = document.getElementById('stage').getBoundingClientRect();
+  poses.length = 0;
+  document.getElementById('stage').dispatchEvent(new PointerEvent('pointermove', {
+    clientX: x + %s * width, clientY: y + height / 2, pointerType: 'mouse', bubbles: true}));
+  requestAnimationFrame(() => resolve(poses.length));
+}))"""
 PARTS = re.compile(r"(\d+) ms: (\d+) to the server, (\d+) waiting, (\d+) rendering, (\d+) back")
 
 
@@ -29,6 +52,7 @@ class LookAround(unittest.TestCase):
         self.addCleanup(self.browser.close)
         self.browser.resize(*size, scale=scale)
         self.browser.reduce_motion()
+        self.browser.call("Page.addScriptToEvaluateOnNewDocument", source=RECORD)
         self.browser.open(f"{self.server.url}?stream=rays&reprojection={reprojection}{query}")
         self.browser.wait_for(LIVE)
         self.browser.wait_for(f"{STAGE}.dataset.view === '24'")
@@ -181,6 +205,21 @@ class LookAround(unittest.TestCase):
         self.wait_for(lambda: self.score() > 18)
         self.assertEqual(self.browser.evaluate(f"{STAGE}.dataset.view"), "24", "not yet answered")
         keep(self.browser.screenshot(), "reprojected")
+
+    def test_a_pose_goes_in_the_frame_that_follows_the_pointer(self):
+        self.start()
+        for share in (0.2, 0.7):
+            self.assertEqual(self.browser.evaluate(MOVE % share), 1)
+
+    def test_without_its_graphics_device_the_page_asks_for_no_depth(self):
+        self.start(reprojection="on")
+        self.assertTrue(self.server.viewers[-1].with_depth)
+        self.browser.evaluate(
+            "contexts.forEach(gl => gl.getExtension('WEBGL_lose_context').loseContext())")
+        self.wait_for(lambda: not self.server.viewers[-1].with_depth)
+        self.browser.mouse(*self.point(0.3))
+        self.browser.wait_for(f"{STAGE}.dataset.view === '14'")
+        self.wait_for(lambda: self.score() > 22)
 
     def test_without_a_gpu_there_is_no_reprojection_unless_it_is_asked_for(self):
         self.start(reprojection="auto")

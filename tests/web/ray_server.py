@@ -24,6 +24,7 @@ SHADERS = os.path.join(os.path.dirname(__file__), "..", "..", "shaders")
 CODE_MAX = 4095
 BAND_ROWS = 128
 CONE_RAD = math.radians(40)
+REFUSED = 1008  # close code
 KEY_END = b"258EAFA5-E914-47DA-95CA-C5AB0DC85B11"
 TYPES = {".html": "text/html", ".js": "text/javascript", ".css": "text/css",
          ".svg": "image/svg+xml", ".json": "application/json"}
@@ -212,7 +213,14 @@ class Handler(http.server.BaseHTTPRequestHandler):
         display = json.loads(parameters["display"])
         encoding = json.loads(parameters.get("encoding", "{}"))
         self.server.displays.append(display)
+        is_one = display["stereo"].get("layout") == "STEREO_LAYOUT_SINGLE"
+        if self.server.refusal_of_pairs is not None and not is_one:
+            self.send_frame(1, json.dumps({"error": self.server.refusal_of_pairs}).encode())
+            self.send_frame(8, struct.pack("!H", REFUSED))
+            self.close_connection = True
+            return
         viewer = Viewer(self, display, encoding.get("with_depth", False), self.server.delay_s)
+        self.server.viewers.append(viewer)
         threading.Thread(target=viewer.run, daemon=True).start()
         try:
             self._read(viewer)
@@ -250,6 +258,8 @@ class RayServer(http.server.ThreadingHTTPServer):
         super().__init__(("127.0.0.1", 0), Handler)
         self.delay_s, self.folders = delay_s, folders
         self.poses, self.displays, self.presented = [], [], []  # as they came
+        self.viewers = []  # one a connection
+        self.refusal_of_pairs = None  # {code, field, message} of an error
         self.url = f"http://127.0.0.1:{self.server_address[1]}/"
         threading.Thread(target=self.serve_forever, daemon=True).start()
 
