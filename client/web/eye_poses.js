@@ -12,6 +12,7 @@ export class EyePoses {
   #sent = new Map();  // by time_ns: what the sender noted beside it
   #newest = '';       // the newest, as text
   #newest_ns = null;
+  #shown_ns = null;   // of the poses of the newest picture on the screen
   #probed_ms = -Infinity;
   #means = null;
 
@@ -23,7 +24,7 @@ export class EyePoses {
   // Another connection knows no poses, and perhaps another clock.
   restart() {
     this.#newest = '';
-    this.#newest_ns = null;
+    this.#newest_ns = this.#shown_ns = null;
     this.#sent.clear();
     this.#clock.forget();
     this.#means = null;
@@ -53,10 +54,12 @@ export class EyePoses {
   // Whether an atlas shows the newest poses.
   isNewest({eyes}) { return (eyes?.time_ns ?? null) === this.#newest_ns; }
 
-  // An atlas is on the screen.
+  // An atlas is on the screen. Only the first one of its poses answers a motion: while the eye
+  // stands, the scene goes on.
   shown(header) {
     const shown_ns = nowNs();
-    if (!this.noteOf(header)) return;
+    if (!this.noteOf(header) || header.eyes.time_ns === this.#shown_ns) return;
+    this.#shown_ns = header.eyes.time_ns;
     this.#send({presented: {sequence: String(header.sequence),
       presented_time_ns: String(shown_ns)}});
     const parts = motionToPicture(header, shown_ns, this.#clock.ahead_ns);
@@ -85,7 +88,7 @@ export function latencyText(latency) {
   if (!latency) return '–';
   const [total, toServer, waiting, rendering, back] =
       ['total', 'to_server', 'waiting', 'rendering', 'back'].map(
-          (name) => Math.max(0, latency[name]).toFixed(0));
+          (name) => latency[name].toFixed(0));
   return `${total} ms: ${toServer} to the server, ${waiting} waiting, ${rendering} rendering, ` +
       `${back} back`;
 }

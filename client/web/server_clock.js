@@ -29,20 +29,26 @@ export class ServerClock {
   }
 }
 
+// Nearest value to `value` between both.
+const within = (value, least, most) => Math.max(least, Math.min(most, value));
+
 // From the eye's motion to its picture on the screen, ms: {total, to_server, waiting, rendering,
-// back}; the parts add up. eyes, times: of the atlas's header; null where nobody knows the clock.
+// back}; the parts add up, and none is below 0 however badly the clock is known. eyes, times: of
+// the atlas's header; null where nobody knows the clock.
 export function motionToPicture({eyes, times}, shown_ns, ahead_ns) {
   if (!eyes || ahead_ns === null || eyes.time_ns === '0') return null;
   const ms = (ns) => Number(ns) / 1e6;
   const measured_ns = BigInt(eyes.time_ns);
-  const latched_ns = BigInt(eyes.latched_ns) - ahead_ns;
-  const waiting = eyes.age_ns / 1e6;
-  const rendering = (times.trace_ns + times.encode_ns) / 1e6;
+  const total = ms(shown_ns - measured_ns);
+  const waiting = within(eyes.age_ns / 1e6, 0, total);
+  const rendering = within((times.trace_ns + times.encode_ns) / 1e6, 0, total - waiting);
+  const travel = total - waiting - rendering;
+  const to_server = ms(BigInt(eyes.latched_ns) - ahead_ns - measured_ns) - waiting;
   return {
-    total: ms(shown_ns - measured_ns),
-    to_server: ms(latched_ns - measured_ns) - waiting,
+    total,
+    to_server: within(to_server, 0, travel),
     waiting,
     rendering,
-    back: ms(shown_ns - latched_ns) - rendering,
+    back: travel - within(to_server, 0, travel),
   };
 }

@@ -140,6 +140,8 @@ test('poses go once, come back with their note, and never as what is no number',
   poses.shown(header);
   assert.equal(sent[1].presented.sequence, '9');
   assert.equal(poses.latency, null, 'nobody knows the clock');
+  poses.shown({...header, sequence: 10});
+  assert.equal(sent.length, 2, 'of an eye that stands, further pictures answer no motion');
   poses.restart();
   assert.equal(poses.noteOf(header), undefined);
 });
@@ -170,6 +172,11 @@ test('parts of motion to picture add up', () => {
   const parts = motionToPicture(header, 20_000_000n, 1_000_000n);
   assert.deepEqual(parts, {total: 19, to_server: 3, waiting: 2, rendering: 6, back: 8});
   assert.equal(latencyText(parts), '19 ms: 3 to the server, 2 waiting, 6 rendering, 8 back');
+  for (const ahead_ns of [-1_000_000_000n, 1_000_000_000n]) {
+    const {total, ...others} = motionToPicture(header, 20_000_000n, ahead_ns);
+    assert.equal(Object.values(others).reduce((sum, part) => sum + part), total);
+    assert.ok(Object.values(others).every((part) => part >= 0), 'with a clock that is wrong');
+  }
   assert.equal(motionToPicture(header, 20_000_000n, null), null);
   assert.equal(latencyText(null), '–');
 });
