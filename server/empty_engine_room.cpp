@@ -20,6 +20,10 @@ class EmptyRoom final : public EngineRoom {
   EngineRoomDescription description() const override { return {}; }
   uint64_t preparedBytes(const FrameFormat&) const override { return 0; }
   uint64_t deviceMessageCount() const override { return 0; }
+  FairShares& shares() override { return shares_; }
+
+ private:
+  FairShares shares_;
 };
 
 }  // namespace

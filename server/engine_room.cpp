@@ -63,6 +63,7 @@ class DeviceRoom final : public EngineRoom {
     return pipeline_.preparedBytes(format);
   }
   uint64_t deviceMessageCount() const override { return device_.validationLog().messageCount(); }
+  FairShares& shares() override { return pipeline_.shares(); }
 
  private:
   const Device device_;

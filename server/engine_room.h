@@ -18,6 +18,7 @@
 #include "publish/atlas_maker.h"
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
+#include "schedule/fair_shares.h"
 
 namespace viewloom {
 
@@ -36,6 +37,8 @@ class EngineRoom : public AtlasMaker {
   virtual uint64_t preparedBytes(const FrameFormat& format) const = 0;
   // Warnings and errors of the device's validation, so far.
   virtual uint64_t deviceMessageCount() const = 0;
+  // Shares of the engines' time. Work for clients beside the engines is paid there, too.
+  virtual FairShares& shares() = 0;
 };
 
 // Neighbours of the room. All of them outlive it.

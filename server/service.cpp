@@ -165,7 +165,7 @@ void Service::Parts::openHttp(const Config& config, const Clock& clock) {
   options.tls = material();
   http.emplace(
       std::move(options), directory, broadcaster, *engine_room, metrics, clock, access,
-      [this] { return grpcHealth(); }, memory);
+      [this] { return grpcHealth(); }, memory, &engine_room->shares());
 }
 
 absl::Status Service::Parts::grpcHealth() {

@@ -246,12 +246,17 @@ std::string Metrics::text() const {
   return prometheus::TextSerializer().Serialize(store_->registry.Collect());
 }
 
+void Metrics::observeTime(const std::vector<Payer>& payers, int64_t duration_ns) const {
+  const double seconds = static_cast<double>(duration_ns) * kSecondsPerNs;
+  engine_seconds[classOf(payers)].add(seconds);
+  if (store_->client_seconds) store_->client_seconds->add(payers, seconds);
+}
+
 // One of two longest pieces at one moment may be lost.
 void Metrics::observePiece(EngineWork work, const std::vector<Payer>& payers,
                            const PieceTimes& times) const {
   const double seconds = static_cast<double>(times.measured_ns) * kSecondsPerNs;
-  engine_seconds[classOf(payers)].add(seconds);
-  if (store_->client_seconds) store_->client_seconds->add(payers, seconds);
+  observeTime(payers, times.measured_ns);
   piece[work].observe(seconds);
   predicted_piece[work].observe(static_cast<double>(times.predicted_ns) * kSecondsPerNs);
   if (seconds > longest_piece[work].value()) longest_piece[work].set(seconds);

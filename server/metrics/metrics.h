@@ -164,8 +164,10 @@ class Metrics {
   Labelled<EngineWork, Histogram> predicted_piece;  // {work}; as predicted when they began
   Labelled<EngineWork, Gauge> longest_piece;        // {work}; since the start, seconds
 
-  // A piece of work for any of these. If clients are named, also their
-  // viewloom_client_engine_seconds_total{client}.
+  // Time of work for any of these, which is no piece of an engine's work. If clients
+  // are named, also their viewloom_client_engine_seconds_total{client}.
+  void observeTime(const std::vector<Payer>& payers, int64_t duration_ns) const;
+  // A piece of work for any of these. Its time counts as above.
   void observePiece(EngineWork work, const std::vector<Payer>& payers,
                     const PieceTimes& times) const;
   void observeOutputDelay(int64_t duration_ns) const;

@@ -228,6 +228,10 @@ uint64_t Pipeline::preparedBytes(const FrameFormat& format) const {
   return loops_->links.engines.preparedBytes(format);
 }
 
+FairShares& Pipeline::shares() {
+  return loops_->shares;
+}
+
 bool Pipeline::wantsFrame(const std::string& stream) {
   return loops_->entrance.wantsFrame(stream);
 }

@@ -14,6 +14,8 @@
 
 namespace viewloom {
 
+class FairShares;
+
 struct PipelineOptions {
   uint32_t encode_thread_count = 2;
   uint32_t video_thread_count = 1;          // that code one picture of a video together
@@ -38,6 +40,8 @@ class Pipeline final : public AtlasMaker {
   void forgetStream(const std::string& stream) override;
   // See Engines::preparedBytes.
   uint64_t preparedBytes(const FrameFormat& format) const;
+  // Shares of the engines' time, while the pipeline lives.
+  FairShares& shares();
 
   void serveDisplays(const std::string& stream) override;
 

@@ -64,7 +64,7 @@ tcp::acceptor listen(net::io_context& io, const HttpOptions& options) {
 struct HttpServer::State {
   State(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
         EyeSink& eyes, const Metrics& metrics, const Clock& clock, AccessControl& access,
-        std::function<absl::Status()> grpc_health, MemoryBudget& memory)
+        std::function<absl::Status()> grpc_health, MemoryBudget& memory, FairShares* shares)
       : io(static_cast<int>(options.thread_count)),
         acceptor(listen(io, options)),
         endpoint(acceptor.local_endpoint()),
@@ -77,10 +77,12 @@ struct HttpServer::State {
                 metrics,
                 clock,
                 access,
-                memory} {
+                memory,
+                shares != nullptr ? *shares : own_shares} {
     if (options.tls) tls.emplace(options.tls);
   }
 
+  FairShares own_shares;  // where there are no engines
   net::io_context io;
   tcp::acceptor acceptor;  // used by accept() alone
   const tcp::endpoint endpoint;
@@ -221,9 +223,10 @@ ConnectionList HttpServer::State::living() {
 HttpServer::HttpServer(HttpOptions options, const StreamDirectory& streams,
                        Broadcaster& broadcaster, EyeSink& eyes, const Metrics& metrics,
                        const Clock& clock, AccessControl& access,
-                       std::function<absl::Status()> grpc_health, MemoryBudget& memory)
+                       std::function<absl::Status()> grpc_health, MemoryBudget& memory,
+                       FairShares* shares)
     : state_(std::make_unique<State>(std::move(options), streams, broadcaster, eyes, metrics, clock,
-                                     access, std::move(grpc_health), memory)) {
+                                     access, std::move(grpc_health), memory, shares)) {
   State& state = *state_;
   state.startAccepting();
   for (uint32_t i = 0; i < state.context.options.thread_count; ++i) {

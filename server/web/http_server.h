@@ -26,10 +26,12 @@ class HttpServer {
  public:
   // Throws std::runtime_error, with the remedy, when the address cannot be listened on. What is
   // handed in outlives the server.
+  // `shares`: those of the engines, in which videos are encoded; null = they have their own.
   // `grpc_health`: whether gRPC clients would get in, for /healthz; is called from any thread.
   HttpServer(HttpOptions options, const StreamDirectory& streams, Broadcaster& broadcaster,
              EyeSink& eyes, const Metrics& metrics, const Clock& clock, AccessControl& access,
-             std::function<absl::Status()> grpc_health, MemoryBudget& memory = unboundedMemory());
+             std::function<absl::Status()> grpc_health, MemoryBudget& memory = unboundedMemory(),
+             FairShares* shares = nullptr);
   // Drains first.
   ~HttpServer();
 

@@ -2,6 +2,7 @@
 // One player that is sent atlas after atlas as one endless reply.
 #pragma once
 
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -44,6 +45,8 @@ class LiveStream : public LiveReader, public std::enable_shared_from_this<LiveSt
 
   // Whether the player, the server, the display or the caller's right has gone.
   bool isOver() const;
+  // Whether the player is there, and is not asked to leave. From any thread.
+  bool isWanted() const { return !gone_ && !leaving_; }
   // Until wake(), until that time, or until the right of the caller is to be looked at again.
   net::awaitable<void> waitUntil(Time time);
   // Counts what it writes for the caller. The bytes have to live as long.
@@ -64,8 +67,8 @@ class LiveStream : public LiveReader, public std::enable_shared_from_this<LiveSt
   std::optional<WebStream> stream_;  // from run() on
   std::shared_ptr<AtlasInbox> inbox_;
   std::unique_ptr<Broadcaster::Subscription> subscription_;
-  bool leaving_ = false;
-  bool gone_ = false;
+  std::atomic<bool> leaving_ = false;
+  std::atomic<bool> gone_ = false;
 };
 
 }  // namespace viewloom

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <new>
 #include <utility>
 
 #include "admission/request_boundary.h"
@@ -12,6 +13,7 @@
 #include "display/quilt_json.h"
 #include "mp4/movie_fragments.h"
 #include "web/atlas_message.h"
+#include "web/quilt_address.h"
 
 namespace viewloom {
 namespace {
@@ -56,19 +58,18 @@ absl::StatusOr<MovieCoding> planMovie(const WatchRequest& request) {
   return coding;
 }
 
-std::unique_ptr<MovieStream::Place> MovieStream::Place::take(WebContext& context) {
-  std::unique_ptr<Place> place(new Place(context.movie_count));
-  if (++context.movie_count > context.options.movie_count_max) return nullptr;
-  return place;
-}
-
 MovieStream::MovieStream(WebContext& context, Caller caller, net::any_io_executor strand,
                          std::string identity, const MovieCoding& coding)
     : LiveStream(context, std::move(caller), std::move(strand), std::move(identity)),
       coding_(coding) {}
 
 absl::Status MovieStream::subscribe(const WatchRequest& request) {
-  place_ = Place::take(context_);
+  const auto executor = strand();
+  place_ = context_.movie_places.take(identity_, [executor, weak = weak_from_this()] {
+    net::post(executor, [weak] {
+      if (const auto self = weak.lock()) self->leave();
+    });
+  });
   if (!place_) {
     return absl::ResourceExhaustedError(
         strCat("the server sends ", context_.options.movie_count_max,
@@ -85,6 +86,7 @@ absl::Status MovieStream::subscribe(const WatchRequest& request) {
   VIEWLOOM_RETURN_IF_ERROR(memory.status());
   memory_ = *std::move(memory);
   title_ = request.stream;
+  display_key_ = strCat(displayKey(request.display), kMovieExtension);
   return LiveStream::subscribe(request);
 }
 
@@ -101,7 +103,7 @@ net::awaitable<void> MovieStream::writeAtlases(ErrorCode& error) {
     const bool is_new = atlas != nullptr;
     co_await makePart(std::move(atlas));
     if (!made_.ok()) {
-      log(LogLevel::kWarning, "a live video ends: ", made_.message());
+      if (isWanted()) log(LogLevel::kWarning, "a live video ends: ", made_.message());
       co_return;
     }
     std::vector<net::const_buffer> parts;
@@ -120,20 +122,37 @@ net::awaitable<void> MovieStream::writeEnd(ErrorCode&) {
 net::awaitable<void> MovieStream::makePart(AtlasPtr atlas) {
   is_made_ = false;
   auto self = std::static_pointer_cast<MovieStream>(shared_from_this());
-  context_.movie_threads.run([self = std::move(self), atlas = std::move(atlas)]() mutable {
-    self->made_ = unlessThrown([&] { return self->encode(atlas.get()); });
-    const net::any_io_executor executor = self->strand();
-    // The strand lets go of both, so that nothing ends on this thread.
-    net::post(executor, [self = std::move(self), atlas = std::move(atlas)] {
-      self->is_made_ = true;
-      self->wake();
-    });
-  });
+  MovieWork work{.claim = {.deadline_ns = context_.clock.nowNs(),
+                           .payers = {Payer(identity_)},
+                           .stream = title_,
+                           .display = display_key_},
+                 .px_count = coding_.atlas.atlas_px.area(),
+                 .work = [self = std::move(self), atlas = std::move(atlas)]() mutable {
+                   makeNow(std::move(self), std::move(atlas));
+                 }};
+  context_.movie_threads.run(std::move(work));
   while (!is_made_) co_await waitUntil(Time::max());
+}
+
+void MovieStream::makeNow(std::shared_ptr<MovieStream> self, AtlasPtr atlas) {
+  self->made_ = unlessThrown([&] { return self->encode(atlas.get()); });
+  const net::any_io_executor executor = self->strand();
+  self->is_made_ = true;
+  try {
+    // The strand lets go of both, so that nothing ends on this thread.
+    net::post(executor, [self = std::move(self), atlas = std::move(atlas)] { self->wake(); });
+  } catch (const std::bad_alloc&) {
+    // The strand looks by itself, within kRecheckInterval.
+  }
+}
+
+absl::Status MovieStream::checkWanted() const {
+  return isWanted() ? absl::OkStatus() : absl::CancelledError("nobody wants the video any more");
 }
 
 absl::Status MovieStream::encode(const EncodedAtlas* atlas) {
   part_.clear();
+  VIEWLOOM_RETURN_IF_ERROR(checkWanted());
   if (atlas != nullptr) shown_time_ns_ = atlas->shown_time_ns;
   const int64_t time_ns = clock_.next(shown_time_ns_, context_.clock.nowNs());
   const auto coded = code(atlas, time_ns);
@@ -165,6 +184,7 @@ absl::StatusOr<std::span<const uint8_t>> MovieStream::code(const EncodedAtlas* a
     jpeg_.insert(jpeg_.end(), band->begin(), band->end());
   }
   VIEWLOOM_RETURN_IF_ERROR(decoder_.decode(jpeg_, coding_.atlas.atlas_px, rgba_));
+  VIEWLOOM_RETURN_IF_ERROR(checkWanted());
   return coder_->code({.samples = rgba_.data(), .channel_count = 4}, time_ns);
 }
 

@@ -14,6 +14,7 @@
 #include "mp4/movie_clock.h"
 #include "mp4/movie_coder.h"
 #include "web/live_stream.h"
+#include "web/movie_places.h"
 
 namespace viewloom {
 
@@ -21,9 +22,10 @@ namespace viewloom {
 // RESOURCE_EXHAUSTED for those that no video takes.
 absl::StatusOr<MovieCoding> planMovie(const WatchRequest& request);
 
-// The player gets H.264 that its own encoder makes of the JPEG atlases, on context.movie_threads. A
-// picture that stands is coded again each second, so that players and proxies go on. A player that
-// reads slowly skips atlases before they are encoded.
+// The player gets H.264 that its own encoder makes of the JPEG atlases, on context.movie_threads
+// and in the fair share of its identity. A picture that stands is coded again each second, so that
+// players and proxies go on. A player that reads slowly skips atlases before they are encoded. One
+// that goes, or has to, ends what waits to be encoded.
 class MovieStream final : public LiveStream {
  public:
   MovieStream(WebContext& context, Caller caller, net::any_io_executor strand, std::string identity,
@@ -33,31 +35,22 @@ class MovieStream final : public LiveStream {
   absl::Status subscribe(const WatchRequest& request) override;
 
  private:
-  // A place among options.movie_count_max. Given back by the destructor.
-  class Place {
-   public:
-    static std::unique_ptr<Place> take(WebContext& context);
-    ~Place() { --count_; }
-    Place(const Place&) = delete;
-    Place& operator=(const Place&) = delete;
-
-   private:
-    explicit Place(std::atomic<uint32_t>& count) : count_(count) {}
-    std::atomic<uint32_t>& count_;
-  };
-
   net::awaitable<void> writeAtlases(ErrorCode& error) override;
   net::awaitable<void> writeEnd(ErrorCode& error) override;
   // Makes part_ of the atlas; of the last one again if it is null.
   net::awaitable<void> makePart(AtlasPtr atlas);
-  // The next three run on a movie thread, while the strand waits for is_made_.
+  // The next four run on a movie thread, while the strand waits for is_made_.
+  static void makeNow(std::shared_ptr<MovieStream> self, AtlasPtr atlas);
   absl::Status encode(const EncodedAtlas* atlas);
   absl::StatusOr<std::span<const uint8_t>> code(const EncodedAtlas* atlas, int64_t time_ns);
   void appendFragment(const AvcSample& sample, int64_t time_ns);
+  // CANCELLED once the player has gone, or has to.
+  absl::Status checkWanted() const;
 
   const MovieCoding coding_;
   std::string title_;
-  std::unique_ptr<Place> place_;
+  std::string display_key_;
+  MoviePlaces::PlacePtr place_;
   Reservation memory_;
   std::unique_ptr<MovieCoder> coder_;  // from the first atlas on
   std::optional<AvcTrack> track_;      // the same
@@ -70,7 +63,7 @@ class MovieStream final : public LiveStream {
   uint32_t fragment_count_ = 0;
   std::vector<uint8_t> part_;  // of the body
   absl::Status made_;          // how the last part went
-  bool is_made_ = false;
+  std::atomic<bool> is_made_ = false;
 };
 
 }  // namespace viewloom

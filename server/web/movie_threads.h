@@ -4,34 +4,48 @@
 
 #include <condition_variable>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
 
+#include "base/cost_estimate.h"
+#include "metrics/metrics.h"
+#include "schedule/fair_shares.h"
+
 namespace viewloom {
 
-// Work is done in the order in which it comes, so that all players take turns. Each player has one
-// piece of work here at a time, which bounds the queue. Thread-safety: run() may be called from any
-// thread.
+// One picture of one video.
+struct MovieWork {
+  Claim claim;
+  uint64_t px_count = 0;       // of the atlas
+  std::function<void()> work;  // must not throw
+};
+
+// Work goes in fair shares, and is paid like that of engines. Each player has one piece of work
+// here at a time, which bounds the queue. Thread-safety: run() may be called from any thread.
 class MovieThreads {
  public:
-  explicit MovieThreads(uint32_t thread_count);
+  // Shares and metrics outlive it.
+  MovieThreads(uint32_t thread_count, FairShares& shares, const Metrics& metrics);
   // Work that has not begun is dropped.
   ~MovieThreads();
   MovieThreads(const MovieThreads&) = delete;
   MovieThreads& operator=(const MovieThreads&) = delete;
 
-  // `work` must not throw.
-  void run(std::function<void()> work);
+  void run(MovieWork work);
 
  private:
   void serve(const std::stop_token& stop);
+  MovieWork takeNext();
+  void make(const MovieWork& work);
 
+  FairShares& shares_;
+  const Metrics& metrics_;
+  CostEstimate px_cost_;
   std::mutex mutex_;
   std::condition_variable_any filled_;
-  std::deque<std::function<void()>> waiting_;
+  std::vector<MovieWork> waiting_;
   std::vector<std::jthread> threads_;  // last: they use the rest
 };
 

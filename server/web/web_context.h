@@ -19,6 +19,7 @@
 #include "tls/tls_material.h"
 #include "web/host_policy.h"
 #include "web/message_pace.h"
+#include "web/movie_places.h"
 #include "web/movie_threads.h"
 
 namespace viewloom {
@@ -63,9 +64,11 @@ struct WebContext {
   const Clock& clock;
   AccessControl& access;
   MemoryBudget& memory;
+  FairShares& shares;
   std::atomic<bool> draining{false};
-  std::atomic<uint32_t> movie_count{0};                    // live videos
-  MovieThreads movie_threads{options.movie_thread_count};  // last: they use the rest
+  MoviePlaces movie_places{options.movie_count_max};
+  // Last: they use the rest.
+  MovieThreads movie_threads{options.movie_thread_count, shares, metrics};
 };
 
 }  // namespace viewloom
