@@ -24,6 +24,13 @@ std::span<const uint8_t> bytesOf(std::span<const Sample> samples) {
   return {reinterpret_cast<const uint8_t*>(samples.data()), samples.size_bytes()};
 }
 
+// Time that other threads have spent on the work of this one, ns.
+thread_local int64_t helpers_ns = 0;
+
+int64_t spentWithHelpNs() {
+  return threadTimeNs() + helpers_ns;
+}
+
 // Pictures of videos that wait for reuse.
 constexpr size_t kKeptPictureCount = 64;
 
@@ -112,9 +119,9 @@ void EncodePool::stop() {
 void EncodePool::run() {
   BandEncoder encoder(bytes_);
   while (auto task = tasks_.pop()) {
-    const int64_t begun_ns = threadTimeNs();
+    const int64_t begun_ns = spentWithHelpNs();
     serve(*task, encoder);
-    note(*task, threadTimeNs() - begun_ns);
+    note(*task, spentWithHelpNs() - begun_ns);
     finish(*std::move(task));
   }
 }
@@ -173,6 +180,7 @@ void EncodePool::codePicture(const AtlasRunPtr& run, size_t output) {
   AtlasOutput& of = run->outputs[output];
   absl::StatusOr<CodedPicture> coded = of.video->codeNext(video_encoders_, bytes_);
   if (!coded.ok()) return publisher_.giveUp(*run, coded.status());
+  helpers_ns += coded->help_ns;
   links_.metrics.encoded_bytes.add(static_cast<double>(coded->bytes->size()));
   links_.metrics.bands_encoded.add();
   links_.metrics.video_pictures.add();

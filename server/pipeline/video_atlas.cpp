@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/check.h"
+#include "base/thread_time.h"
 
 namespace viewloom {
 
@@ -49,7 +50,9 @@ absl::StatusOr<CodedPicture> VideoAtlas::codeNext(VideoEncoders& encoders, ByteP
     encoder_ = *std::move(taken);
   }
   const Reference reference = coded.picture == 0 ? Reference::kNone : Reference::kPictureBefore;
+  const int64_t begun_ns = wallTimeNs();
   VIEWLOOM_RETURN_IF_ERROR(encoder_->encode(planes->video(), reference, access_unit_));
+  coded.help_ns = (encoder_->format().thread_count - 1) * (wallTimeNs() - begun_ns);
   planes = nullptr;
   // Sizes vary from frame to frame; powers of two let the pool's buffers settle after a few.
   BytePool::Buffer unit = bytes.take(std::bit_ceil(access_unit_.size()));

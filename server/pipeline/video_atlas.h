@@ -18,6 +18,8 @@ struct CodedPicture {
   uint32_t picture = 0;
   SharedBytes bytes;           // an access unit
   bool is_next_ready = false;  // codeNext() has to be called again
+  // Time of other threads that coded it, too: as if each of them was busy all the while.
+  int64_t help_ns = 0;
 };
 
 // Strips come in any order and from any thread. Pictures are coded one after the other, each once

@@ -85,6 +85,18 @@ TEST_F(VideoAtlasTest, makesTheSameBytesWithAnEncoderThatCodedAnotherAtlas) {
   EXPECT_EQ(first[2], second[2]);
 }
 
+TEST_F(VideoAtlasTest, countsTheThreadsThatHelp) {
+  EXPECT_TRUE(put(0, 0, 48));
+  EXPECT_EQ(codeNext().help_ns, 0) << "no picture of 48 rows is cut";
+  const SizePx tall_px{64, 256};
+  VideoEncoders of_two(2);
+  VideoAtlas atlas({.view_count = 1, .picture_count = 1, .cell_px = tall_px}, 24);
+  EXPECT_TRUE(atlas.put(0, Picture(tall_px, 1).band(0, 256), planes_));
+  const auto coded = atlas.codeNext(of_two, bytes_);
+  ASSERT_TRUE(coded.ok()) << coded.status();
+  EXPECT_GT(coded->help_ns, 0);
+}
+
 TEST_F(VideoAtlasTest, takesRowsFromSeveralThreads) {
   std::atomic<int> told_count = 0;
   {
