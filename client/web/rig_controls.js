@@ -22,13 +22,19 @@ export class RigControls {
     for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) {
       canvas.addEventListener(end, ({pointerId}) => this.#points.delete(pointerId));
     }
+    // Passive listeners could not keep the page from scrolling.
+    for (const kind of ['touchstart', 'touchmove']) {
+      canvas.addEventListener(kind, (event) => this.#claim(event), {passive: false});
+    }
     canvas.addEventListener('wheel', (event) => this.#wheel(event), {passive: false});
     canvas.addEventListener('keydown', (event) => this.#key(event));
     canvas.addEventListener('dblclick', () => this.#reset());
   }
 
-  // Fingers that are down; one alone moves the eye in its cone.
-  get fingers() { return this.#points.size; }
+  // One finger scrolls the page, several move the eye.
+  #claim(event) {
+    if (this.active && event.touches.length > 1 && event.cancelable) event.preventDefault();
+  }
 
   #down(event) {
     if (!this.active || (event.pointerType === 'mouse' && event.button !== 0)) return;
@@ -44,10 +50,16 @@ export class RigControls {
     const {clientWidth: width, clientHeight: height} = event.target;
     const [right, up] = [(now.x - before.x) / width, (before.y - now.y) / height];
     if (this.#points.size === 2) this.#pinch(event, before, now, right, up);
+    else if (this.#points.size === 3) this.#turn(right / 3, up / 3);  // each finger turns a third
     else if (event.pointerType !== 'mouse') return;
     else if (event.shiftKey) this.#rig.pan(-right, -up);
-    else this.#rig.orbit(-right * kTurn_rad, -up * kTurn_rad / 2);
+    else this.#turn(right, up);
     this.#onMove();
+  }
+
+  // right, up: of a drag, in shares of the canvas
+  #turn(right, up) {
+    this.#rig.orbit(-right * kTurn_rad, -up * kTurn_rad / 2);
   }
 
   // Two fingers: apart is a step forward, together a pan.

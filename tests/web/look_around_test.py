@@ -154,6 +154,24 @@ class LookAround(unittest.TestCase):
         self.browser.touch("touchEnd")
         self.wait_for(lambda: self.place()[2] < -0.5)
 
+    def slide(self, *shares):
+        """Fingers upwards over the picture, from these places across it."""
+        self.browser.call("Emulation.setTouchEmulationEnabled", enabled=True)
+        self.browser.touch("touchStart", *(self.point(share, 0.7) for share in shares))
+        for step in range(1, 6):
+            self.browser.touch("touchMove", *(self.point(share, 0.7 - 0.08 * step)
+                                              for share in shares))
+        self.browser.touch("touchEnd")
+
+    def test_two_fingers_pan_up_and_three_turn_and_the_page_does_not_scroll(self):
+        self.start(size=(390, 844))  # higher than its window
+        self.slide(0.3, 0.7)
+        self.wait_for(lambda: self.place()[1] < -0.5)
+        self.assertAlmostEqual(self.place()[2], 0, delta=0.2)
+        self.slide(0.2, 0.5, 0.8)
+        self.wait_for(lambda: self.place()[2] < -0.5)
+        self.assertEqual(self.browser.evaluate("scrollY"), 0)
+
     def test_single_views_are_one_eye_that_stands(self):
         self.start("&mode=single")
         self.browser.click("#single-on")
