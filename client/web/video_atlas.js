@@ -11,12 +11,18 @@ const kWays = {planes: VideoPlanes, conversion: VideoConversion, texImage2D: Vid
 // dimensions a bitmap. The first one of each is the faster one without a GPU.
 const kChoices = {planes: ['planes', 'texImage2D'], bitmap: ['conversion', 'texImage2D']};
 
+const kPatience_ms = 8000;  // a decoder that gives nothing for as long hangs
+
 // Frames in the order in which the decoder gives them, for one reader.
 class FrameQueue {
   #frames = [];
   #wake = null;
   #failure = null;
   #isOver = false;
+
+  constructor(patience_ms) {
+    this.patience_ms = patience_ms;
+  }
 
   push(frame) {
     if (this.#isOver) {
@@ -34,12 +40,18 @@ class FrameQueue {
 
   // The next frame; throws what failed.
   async next() {
-    while (this.#frames.length === 0) {
-      if (this.#failure) throw this.#failure;
-      await new Promise((resolve) => { this.#wake = resolve; });
-      this.#wake = null;
+    const timer = setTimeout(
+        () => this.fail(new Error('the decoder gives no picture')), this.patience_ms);
+    try {
+      while (this.#frames.length === 0) {
+        if (this.#failure) throw this.#failure;
+        await new Promise((resolve) => { this.#wake = resolve; });
+        this.#wake = null;
+      }
+      return this.#frames.shift();
+    } finally {
+      clearTimeout(timer);
     }
-    return this.#frames.shift();
   }
 
   // Closes what is left, and what still comes.
@@ -75,6 +87,11 @@ export class VideoAtlases {
   #trials = Object.fromEntries(
       Object.entries(kChoices).map(([form, names]) => [form, new UploadTrial(names)]));
 
+  // patience_ms: with a decoder that gives no picture
+  constructor(patience_ms = kPatience_ms) {
+    this.patience_ms = patience_ms;
+  }
+
   // Name of the way that was measured to be the faster one for a form; '' = not yet.
   uploadOf(form) { return this.#trials[form].kept; }
 
@@ -94,7 +111,7 @@ export class VideoAtlases {
   }
 
   async #decodeOnce(pictures, layout, form) {
-    const frames = new FrameQueue();
+    const frames = new FrameQueue(this.patience_ms);
     this.#frames = frames;
     try {
       this.#configure(layout.video);

@@ -122,6 +122,23 @@ window.repeat = async (paths, count) => {
   return {...opened, errors, uploads: [own.uploadOf('planes'), own.uploadOf('bitmap')]};
 };
 
+// Decodes on this thread by a decoder that hangs; why it was given up.
+window.hang = async (path) => {
+  const decoding = window.VideoDecoder;
+  window.VideoDecoder = class {
+    state = 'unconfigured';
+    configure() { this.state = 'configured'; }
+    decode() {}
+    flush() { return new Promise(() => {}); }
+    close() { this.state = 'closed'; }
+  };
+  const atlas = await messageOf(path);
+  const decode = new VideoAtlases(300).decode(atlas.pictures, atlas.header.layout, 'planes');
+  const reason = await decode.then(() => '', (error) => error.message);
+  window.VideoDecoder = decoding;
+  return reason;
+};
+
 // All of them at once, to the worker: the sequence of each that was decoded, null of one dropped.
 window.burst = async (paths) => {
   const atlases = await Promise.all(paths.map(messageOf));

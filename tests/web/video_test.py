@@ -135,6 +135,11 @@ class Video(unittest.TestCase):
         self.assertEqual(whole_only["errors"], [])
         self.assertEqual(whole_only["frames"], whole_only["closed"])
 
+    def test_a_decoder_that_hangs_is_given_up(self):
+        self.code("textured", textured_views())
+        self.assertEqual(self.browser.evaluate("hang('textured')"),
+                         "the decoder gives no picture")
+
     def test_of_atlases_that_come_too_fast_the_newest_is_decoded(self):
         layout = self.code("0", textured_views())
         for sequence in range(5):
