@@ -17,6 +17,11 @@ namespace viewloom::cli {
 struct AtlasOutputOptions {
   AtlasFileOptions files;  // folder "" = none are written
   std::string video;       // MP4 to write; "" = none
+
+  // Whether files have the bytes of JPEG that the server made.
+  bool keepsJpeg() const {
+    return !files.folder.empty() && !files.writes_png && !files.writes_views;
+  }
 };
 
 // Thread-safety: none; one owner at a time.

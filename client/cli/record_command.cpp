@@ -14,6 +14,7 @@
 #include "cli/server_options.h"
 #include "cli/status_line.h"
 #include "cli/stream_wait.h"
+#include "lib/preferred_video.h"
 #include "lib/watcher.h"
 #include "recording/atlas_recording.h"
 #include "recording/video_recorder.h"
@@ -53,6 +54,7 @@ class RecordRun {
     open.set_stream(options_.stream);
     *open.mutable_display() = *display;
     *open.mutable_encoding() = *encoding;
+    preferVideo(common_.server, open);
     open.set_count(options_.count);
     open.set_wait_for_stream(!options_.fails_without_stream);
     watcher_ = std::make_unique<Watcher>(channelTo(common_), open, callbacks());

@@ -160,7 +160,7 @@ absl::Status showOn(const ShowOptions& options, const CommonOptions& common, Sta
   }
   const InterruptLimit limit;
   StreamWait waiting(line, common, options.stream);
-  return show::showStream(channelTo(common), *session,
+  return show::showStream(channelTo(common), common.server, *session,
                           {.is_interrupted = &isInterrupted,
                            .say = [&](const std::string& text) { line.say(text); },
                            .on_connection = waiting.toldBefore(sayConnections(line, common))});

@@ -22,6 +22,7 @@
 #include "cli/watch_words.h"
 #include "eyes/eye_feed.h"
 #include "lib/latency.h"
+#include "lib/preferred_video.h"
 #include "lib/watcher.h"
 #include "usage/command_line.h"
 
@@ -61,6 +62,7 @@ class WatchRun {
     open.set_stream(options_.stream);
     *open.mutable_display() = *display;
     *open.mutable_encoding() = *encoding;
+    if (!outputOptions(options_.stream).keepsJpeg()) preferVideo(common_.server, open);
     open.set_count(options_.count);
     open.set_wait_for_stream(!options_.fails_without_stream);
     if (absl::Status eyes = openEyes(*display); !eyes.ok()) return usage(eyes);
@@ -225,9 +227,7 @@ class WatchRun {
     }
     if (ended.ok()) return kExitDone;
     // Ctrl-C is the usual end of watching without a count.
-    if (ended.code() == absl::StatusCode::kCancelled) {
-      return options_.count == 0 ? kExitDone : kExitFailed;
-    }
+    if (absl::IsCancelled(ended)) return options_.count == 0 ? kExitDone : kExitFailed;
     return reportError(ended, common_);
   }
 

@@ -9,6 +9,7 @@
 #include "base/str_cat.h"
 #include "eyes/eye_feed.h"
 #include "lib/latency.h"
+#include "lib/preferred_video.h"
 #include "show/arrivals.h"
 #include "show/display_link.h"
 #include "show/mode_question.h"
@@ -27,9 +28,10 @@ constexpr uint32_t kNativeJpegQuality = 95;  // what blurs shows to the wrong ey
 
 class ShowSession {
  public:
-  ShowSession(std::shared_ptr<grpc::Channel> channel, const SessionOptions& options,
-              const SessionCallbacks& callbacks)
+  ShowSession(std::shared_ptr<grpc::Channel> channel, const std::string& server,
+              const SessionOptions& options, const SessionCallbacks& callbacks)
       : channel_(std::move(channel)),
+        server_(server),
         options_(options),
         callbacks_(callbacks),
         settings_(options.settings),
@@ -71,6 +73,7 @@ class ShowSession {
   v1::AtlasEncoding encoding() const;
 
   const std::shared_ptr<grpc::Channel> channel_;
+  const std::string& server_;
   const SessionOptions& options_;
   const SessionCallbacks& callbacks_;
   ShowSettings settings_;
@@ -148,6 +151,7 @@ void ShowSession::connect() {
   open.set_stream(options_.stream);
   *open.mutable_display() = displayFor(settings_, options_.display, options_.calibration);
   *open.mutable_encoding() = encoding();
+  preferVideo(server_, open);
   open.set_wait_for_stream(true);
   link_ = std::make_unique<DisplayLink>(channel_, std::move(open), watcherCallbacks());
 }
@@ -282,9 +286,9 @@ absl::Status ShowSession::drawStatistics() {
 
 }  // namespace
 
-absl::Status showStream(std::shared_ptr<grpc::Channel> channel, const SessionOptions& options,
-                        const SessionCallbacks& callbacks) {
-  return ShowSession(std::move(channel), options, callbacks).run();
+absl::Status showStream(std::shared_ptr<grpc::Channel> channel, const std::string& server,
+                        const SessionOptions& options, const SessionCallbacks& callbacks) {
+  return ShowSession(std::move(channel), server, options, callbacks).run();
 }
 
 }  // namespace viewloom::show

@@ -40,7 +40,8 @@ struct SessionCallbacks {
 // Returns when the user ends it: OK. INVALID_ARGUMENT: no such monitor, px that are no px of the
 // panel, or eyes that cannot be read; FAILED_PRECONDITION: no screen; else what the server ended
 // the call with. Where the server does not interlace, quilts are woven here instead. Main thread.
-absl::Status showStream(std::shared_ptr<grpc::Channel> channel, const SessionOptions& options,
-                        const SessionCallbacks& callbacks);
+// server: its address, which says what encoding suits the way to it.
+absl::Status showStream(std::shared_ptr<grpc::Channel> channel, const std::string& server,
+                        const SessionOptions& options, const SessionCallbacks& callbacks);
 
 }  // namespace viewloom::show

@@ -34,8 +34,10 @@ bool isOnWeb(v1::BandEncoding color) {
 // Those that the web has.
 absl::StatusOr<AcceptedEncodings> acceptedOnWeb(const AcceptedEncodings& accepted) {
   AcceptedEncodings kept;
-  for (const v1::AcceptedEncoding& one : accepted) {
-    if (isOnWeb(one.color())) *kept.Add() = one;
+  for (v1::AcceptedEncoding one : accepted) {
+    // The usual choice.
+    if (one.color() == v1::BAND_ENCODING_UNSPECIFIED) one.set_color(v1::BAND_ENCODING_JPEG);
+    if (isOnWeb(one.color())) *kept.Add() = std::move(one);
   }
   if (!kept.empty() || accepted.empty()) return kept;
   return invalidField("accepted",

@@ -61,6 +61,13 @@ TEST(AcceptedEncoding, triesOnlySoMany) {
   EXPECT_FALSE(chooseEncoding(jpeg, accepted, displayOf("portrait")).ok());
 }
 
+TEST(AcceptedEncoding, takesItsUsualChoiceForAnEntryWithoutColor) {
+  const AcceptedEncodings accepted =
+      accepting({v1::BAND_ENCODING_H264, v1::BAND_ENCODING_UNSPECIFIED});
+  EXPECT_EQ(chooseEncoding({}, accepted, displayOf("portrait"))->color, BandEncoding::kH264);
+  EXPECT_EQ(chooseEncoding({}, accepted, panel())->color, chooseEncoding({}, {}, panel())->color);
+}
+
 TEST(AcceptedEncoding, keepsToTheLimitsOfADecoder) {
   AcceptedEncodings accepted = accepting({v1::BAND_ENCODING_H264, v1::BAND_ENCODING_ZSTD});
   accepted[0].set_level_max(30);

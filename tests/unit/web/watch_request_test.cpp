@@ -70,6 +70,9 @@ TEST_F(WatchRequests, takeTheFirstAcceptedColorThatServesTheDisplay) {
   const char* const both = R"([{"color": "BAND_ENCODING_H264"}, {"color": "BAND_ENCODING_JPEG"}])";
   EXPECT_EQ(colorOf(both, "portrait"), BandEncoding::kH264);
   EXPECT_EQ(colorOf(both, "near_eye_2013"), BandEncoding::kJpeg);
+  const char* const usual = R"([{"color": "BAND_ENCODING_H264"}, {}])";
+  EXPECT_EQ(colorOf(usual, "portrait"), BandEncoding::kH264);
+  EXPECT_EQ(colorOf(usual, "near_eye_2013"), BandEncoding::kJpeg);
   EXPECT_EQ(colorOf(R"([{"color": "BAND_ENCODING_JPEG"}])", "portrait"), BandEncoding::kJpeg);
   EXPECT_EQ(colorOf(R"([{"color": "BAND_ENCODING_ZSTD"},
                         {"color": "BAND_ENCODING_H264", "level_max": 10},
