@@ -20,6 +20,7 @@
 #include "cli/report_error.h"
 #include "cli/synthetic_frames.h"
 #include "usage/command_line.h"
+#include "video/quantisation.h"
 
 namespace viewloom::cli {
 namespace {
@@ -119,9 +120,10 @@ void addEncodingOptions(const usage::Command& app, PublishRunOptions& run) {
       .showDefault()
       .group(group);
   app.add("--color-qp", run.color_qp,
-          "Quantisation of colour as video, 20 to 51; less is better, and takes more bytes")
+          strCat("Quantisation of colour as video, ", kVideoQpMin, " to ", kVideoQpMax,
+                 "; less is better, and takes more bytes"))
       .valueName("QP")
-      .between(kColorQpMin, kColorQpMax)
+      .between(kVideoQpMin, kVideoQpMax)
       .showDefault()
       .group(group);
 }

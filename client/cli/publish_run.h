@@ -26,9 +26,6 @@ struct PublishRunOptions {
   std::string record_file;              // "" = none
 };
 
-inline constexpr uint32_t kColorQpMin = 20;  // kVideoQpMin
-inline constexpr uint32_t kColorQpMax = 51;
-
 inline constexpr double kDefaultRate_hz = 15;
 
 // The exit code.

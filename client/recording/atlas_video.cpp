@@ -11,7 +11,7 @@
 #include "display/display_spec.h"
 #include "display/quilt_json.h"
 #include "lib/file_name_part.h"
-#include "video/video_encoder.h"
+#include "video/quantisation.h"
 
 namespace viewloom {
 namespace {
@@ -47,11 +47,10 @@ absl::Status checkPlayable(const v1::AtlasLayout& layout) {
 
 // The error of the video is that of the atlases.
 uint32_t qpOf(const v1::AtlasEncoding& encoding) {
-  constexpr uint32_t kQpMax = 51;
   constexpr uint32_t kUsualQuality = 85;
   const bool is_video = encoding.color() == v1::BAND_ENCODING_H264;
   if (is_video && encoding.video_qp() > 0) {
-    return std::clamp(encoding.video_qp(), kVideoQpMin, kQpMax);
+    return std::clamp(encoding.video_qp(), kVideoQpMin, kVideoQpMax);
   }
   const uint32_t quality = encoding.jpeg_quality();
   return matchedVideoQp(quality == 0 ? kUsualQuality : std::min(quality, 100U));

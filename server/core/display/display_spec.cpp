@@ -10,6 +10,7 @@
 #include "base/str_cat.h"
 #include "display/atlas_layout.h"
 #include "display/video_stack.h"
+#include "video/quantisation.h"
 
 namespace viewloom {
 namespace {
@@ -31,9 +32,10 @@ struct MatchedQp {
   uint32_t qp;
 };
 // Measured on the built-in scene (tests/performance.md). The last two would be finer than encoders
-// are safe with (video/video_encoder.h).
-constexpr MatchedQp kMatchedQps[] = {{1, 51},  {10, 44}, {25, 38}, {50, 32}, {60, 30},
-                                     {75, 27}, {85, 24}, {90, 21}, {95, 20}, {100, 20}};
+// are safe with (video/quantisation.h).
+constexpr MatchedQp kMatchedQps[] = {{1, kVideoQpMax},  {10, 44},          {25, 38}, {50, 32},
+                                     {60, 30},          {75, 27},          {85, 24}, {90, 21},
+                                     {95, kVideoQpMin}, {100, kVideoQpMin}};
 
 absl::Status refuseVideo(std::string_view what, std::string_view problem) {
   return invalidField("color", strCat("H264 is for views, and ", what, " ", problem,
@@ -149,7 +151,7 @@ absl::StatusOr<DisplaySpec> completeDisplaySpec(DisplaySpec spec) {
 
 absl::Status validateEncodingSpec(const EncodingSpec& encoding) {
   VIEWLOOM_RETURN_IF_ERROR(checkRange(encoding.jpeg_quality, {1, 100}, "jpeg_quality"));
-  VIEWLOOM_RETURN_IF_ERROR(checkRange(encoding.video_qp, {20, 51}, "video_qp"));
+  VIEWLOOM_RETURN_IF_ERROR(checkRange(encoding.video_qp, {kVideoQpMin, kVideoQpMax}, "video_qp"));
   if (encoding.color == BandEncoding::kCompactDepth) {
     return invalidField("color",
                         "COMPACT_DEPTH holds no color; accepted is JPEG, JPEG_PLANES, H264, "

@@ -88,7 +88,7 @@ struct EncodingSpec {
   bool with_mask = false;
   bool with_depth_codes = false;              // displays with 16-bit depth need them
   BandEncoding planes = BandEncoding::kZstd;  // kZstd or kRaw; of depth alone, kCompactDepth
-  uint32_t video_qp = 24;                     // quantisation of kH264, 20..51
+  uint32_t video_qp = 24;                     // of kH264, kVideoQpMin..kVideoQpMax
 
   bool operator==(const EncodingSpec&) const = default;
 };

@@ -16,7 +16,7 @@ namespace viewloom {
 struct MovieCoding {
   AtlasTiles atlas;
   VideoTiles video;           // of fitVideoTiles()
-  uint32_t qp = 24;           // quantisation, kVideoQpMin..51
+  uint32_t qp = 24;           // quantisation, kVideoQpMin..kVideoQpMax
   uint32_t thread_count = 1;  // as in VideoFormat
 };
 

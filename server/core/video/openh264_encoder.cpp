@@ -11,7 +11,6 @@
 namespace viewloom {
 namespace {
 
-constexpr uint32_t kQpMax = 51;
 constexpr uint32_t kThreadsMax = 16;
 // Changes no picture at a fixed quantisation. The library raises the level for higher rates, which
 // nobody knows before.
@@ -27,9 +26,9 @@ absl::Status checkFormat(const VideoFormat& format) {
                                              kVideoSideMin_px, " px, and up to ", kVideoAreaMax_px,
                                              " px together"));
   }
-  if (format.qp < kVideoQpMin || format.qp > kQpMax) {
+  if (format.qp < kVideoQpMin || format.qp > kVideoQpMax) {
     return absl::InvalidArgumentError(
-        strCat("quantisation ", format.qp, "; accepted is ", kVideoQpMin, " to ", kQpMax));
+        strCat("quantisation ", format.qp, "; accepted is ", kVideoQpMin, " to ", kVideoQpMax));
   }
   if (format.thread_count < 1 || format.thread_count > kThreadsMax) {
     return absl::InvalidArgumentError(

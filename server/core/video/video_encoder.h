@@ -7,6 +7,7 @@
 
 #include "base/status.h"
 #include "frame/size.h"
+#include "video/quantisation.h"
 #include "video/video_picture.h"
 
 namespace viewloom {
@@ -14,7 +15,7 @@ namespace viewloom {
 // Format of all pictures of an encoder.
 struct VideoFormat {
   SizePx size_px;             // even, from 16x16 px to an area of kVideoAreaMax_px
-  uint32_t qp = 26;           // quantisation, kVideoQpMin..51
+  uint32_t qp = 26;           // quantisation, kVideoQpMin..kVideoQpMax
   uint32_t thread_count = 1;  // each codes a slice of a picture; 1 = the caller's thread
 
   bool operator==(const VideoFormat&) const = default;
@@ -23,9 +24,6 @@ struct VideoFormat {
 // Largest picture of H.264 up to level 5.1, which is also OpenH264's limit.
 inline constexpr uint64_t kVideoAreaMax_px = 9'437'184;
 inline constexpr uint32_t kVideoSideMin_px = 16;
-// Least quantisation. Below 18, OpenH264 2.3.1 writes past its buffers where a picture is noise: it
-// expects no more than 384 bytes a macroblock (tests/tried.md).
-inline constexpr uint32_t kVideoQpMin = 20;
 
 // Picture that a coded picture refers to.
 enum class Reference : uint8_t { kNone, kPictureBefore };

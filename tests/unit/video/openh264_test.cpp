@@ -155,7 +155,7 @@ TEST(OpenH264, refusesFormatsThatItCannotCode) {
        {VideoFormat{.size_px = {15, 16}}, VideoFormat{.size_px = {33, 32}},
         VideoFormat{.size_px = {4096, 2306}},
         VideoFormat{.size_px = {64, 64}, .qp = kVideoQpMin - 1},
-        VideoFormat{.size_px = {64, 64}, .qp = 52},
+        VideoFormat{.size_px = {64, 64}, .qp = kVideoQpMax + 1},
         VideoFormat{.size_px = {64, 64}, .thread_count = 17}}) {
     EXPECT_EQ(OpenH264Encoder::make(format).status().code(), absl::StatusCode::kInvalidArgument);
   }
