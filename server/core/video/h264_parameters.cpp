@@ -8,6 +8,7 @@
 #include "base/check.h"
 #include "base/str_cat.h"
 #include "video/annex_b.h"
+#include "video/picture_limit.h"
 #include "video/unit_bits.h"
 
 namespace viewloom {
@@ -119,8 +120,9 @@ struct LevelLimit {
   uint32_t level;
   uint32_t macroblocks_max;
 };
-constexpr LevelLimit kLevels[] = {{10, 99},   {11, 396},  {21, 792},  {22, 1620},  {31, 3600},
-                                  {32, 5120}, {40, 8192}, {42, 8704}, {50, 22080}, {51, 36864}};
+constexpr LevelLimit kLevels[] = {{10, 99},    {11, 396},   {21, 792},   {22, 1620},
+                                  {31, 3600},  {32, 5120},  {40, 8192},  {42, 8704},
+                                  {50, 22080}, {51, 36864}, {60, 139264}};
 
 }  // namespace
 
@@ -135,7 +137,7 @@ absl::StatusOr<H264Parameters> parseH264Parameters(std::span<const uint8_t> unit
   bits.number();
   if (parameters.profile == kHighProfile) {
     VIEWLOOM_RETURN_IF_ERROR(readHighProfile(bits));
-  } else if (parameters.profile != 66 && parameters.profile != 77) {
+  } else if (parameters.profile != 66 && parameters.profile != kMainProfile) {
     return refuse(strCat("its profile is ", parameters.profile,
                          "; accepted is baseline (66), main (77) or high (100)"));
   }
@@ -157,25 +159,19 @@ absl::StatusOr<H264Parameters> h264ParametersOf(std::span<const uint8_t> stream)
 }
 
 uint32_t h264Level(SizePx size_px) {
-  const uint64_t width_mb = (size_px.width + kMacroblock_px - 1) / kMacroblock_px;
-  const uint64_t height_mb = (size_px.height + kMacroblock_px - 1) / kMacroblock_px;
   for (const LevelLimit& limit : kLevels) {
-    // A side has at most sqrt(8 MaxFS) macroblocks (A.3.1 f and g).
-    const uint64_t side_square_max = 8 * uint64_t{limit.macroblocks_max};
-    if (width_mb * height_mb <= limit.macroblocks_max && width_mb * width_mb <= side_square_max &&
-        height_mb * height_mb <= side_square_max) {
+    constexpr uint64_t kArea_px = kMacroblock_px * kMacroblock_px;
+    if (PictureLimit{.area_max_px = kArea_px * limit.macroblocks_max}.holds(size_px)) {
       return limit.level;
     }
   }
-  failCheck(__FILE__, __LINE__, "a picture is within level 5.1");
+  failCheck(__FILE__, __LINE__, "a picture is within level 6");
 }
 
 std::string codedVideoString(SizePx size_px) {
-  constexpr uint8_t kMainProfile = 77;
-  // Also a stream of the extended profile; no fields. OpenH264 sets these flags.
-  constexpr uint8_t kConstraints = 0x4C;
-  return h264CodecString(
-      {.profile = kMainProfile, .constraints = kConstraints, .level = uint8_t(h264Level(size_px))});
+  return h264CodecString({.profile = kMainProfile,
+                          .constraints = kVideoConstraints,
+                          .level = uint8_t(h264Level(size_px))});
 }
 
 std::string h264CodecString(const H264Parameters& parameters) {

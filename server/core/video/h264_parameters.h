@@ -33,6 +33,15 @@ struct H264Parameters {
   std::optional<uint32_t> reorder_count;  // max_num_reorder_frames; empty = not said
 };
 
+// Colour of all videos that viewloom makes: that of shared/ycbcr.h in sRGB.
+inline constexpr H264Color kVideoColor = {
+    .is_full_range = true, .primaries = 1, .transfer = 13, .matrix = 6};
+
+// Profile of all videos that viewloom makes, and its constraint flags, as OpenH264 writes them: no
+// fields, no pictures that refer to later ones.
+inline constexpr uint8_t kMainProfile = 77;
+inline constexpr uint8_t kVideoConstraints = 0x4C;
+
 // Level 5.1. Larger numbers ask for more of a decoder.
 inline constexpr uint32_t kH264LevelMax = 51;
 
@@ -44,7 +53,7 @@ absl::StatusOr<H264Parameters> parseH264Parameters(std::span<const uint8_t> unit
 absl::StatusOr<H264Parameters> h264ParametersOf(std::span<const uint8_t> stream);
 
 // Ten times the lowest level with pictures of this size (table A-1). Expects a size within level
-// 5.1. Rates are not considered, as nobody knows them before.
+// 6. Rates are not considered, as nobody knows them before.
 uint32_t h264Level(SizePx size_px);
 
 // Codec of the streams that encoders of viewloom make for such pictures: main profile.

@@ -7,6 +7,7 @@
 
 #include "base/status.h"
 #include "frame/size.h"
+#include "video/picture_limit.h"
 #include "video/quantisation.h"
 #include "video/video_picture.h"
 
@@ -14,15 +15,13 @@ namespace viewloom {
 
 // Format of all pictures of an encoder.
 struct VideoFormat {
-  SizePx size_px;             // even, from 16x16 px to an area of kVideoAreaMax_px
+  SizePx size_px;             // even, from 16x16 px to the limit of the encoder
   uint32_t qp = 26;           // quantisation, kVideoQpMin..kVideoQpMax
   uint32_t thread_count = 1;  // each codes a slice of a picture; 1 = the caller's thread
 
   bool operator==(const VideoFormat&) const = default;
 };
 
-// Largest picture of H.264 up to level 5.1, which is also OpenH264's limit.
-inline constexpr uint64_t kVideoAreaMax_px = 9'437'184;
 inline constexpr uint32_t kVideoSideMin_px = 16;
 
 // Picture that a coded picture refers to.

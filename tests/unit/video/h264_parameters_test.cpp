@@ -71,6 +71,7 @@ TEST(H264Parameters, givesTheLowestLevelOfASize) {
   EXPECT_EQ(h264Level({840, 1120}), 32u);
   EXPECT_EQ(h264Level({1920, 1080}), 40u);
   EXPECT_EQ(h264Level({4096, 2176}), 51u);
+  EXPECT_EQ(h264Level({3360, 3360}), 60u);
   EXPECT_EQ(h264Level({4096, 16}), 40u) << "a side of 256 macroblocks";
 }
 
