@@ -50,7 +50,8 @@ HttpReply answerStream(const WebContext& context, const HttpRequest& request, co
   reply.headers = {{"Cache-Control", "no-store"}};
   std::optional<MovieCoding> movie;
   if (address.extension == kMovieExtension) {
-    const absl::StatusOr<MovieCoding> planned = planMovie(address.request);
+    const absl::StatusOr<MovieCoding> planned =
+        planMovie(address.request, context.options.video_encoders);
     if (!planned.ok()) return errorReply(planned.status());
     movie = *planned;
     describeMovie(address, *movie, reply);

@@ -46,13 +46,15 @@ void append(std::vector<uint8_t>& to, const std::vector<uint8_t>& bytes) {
 
 }  // namespace
 
-absl::StatusOr<MovieCoding> planMovie(const WatchRequest& request) {
+absl::StatusOr<MovieCoding> planMovie(const WatchRequest& request,
+                                      const VideoEncoderChoicePtr& encoders) {
   EncodingSpec video = request.encoding;
   video.color = BandEncoding::kH264;
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(validateEncodingOf(request.display, video), "encoding"));
   MovieCoding coding{.atlas = tilesOf(tileGridOf(request.display)),
-                     .qp = matchedVideoQp(video.jpeg_quality)};
-  const absl::StatusOr<VideoTiles> tiles = fitVideoTiles(coding.atlas);
+                     .qp = matchedVideoQp(video.jpeg_quality),
+                     .encoders = encoders};
+  const absl::StatusOr<VideoTiles> tiles = fitVideoTiles(coding.atlas, encoders->limit());
   VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(tiles.status(), "display"));
   coding.video = *tiles;
   return coding;

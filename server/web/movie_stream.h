@@ -20,7 +20,8 @@ namespace viewloom {
 
 // Plans the video of a display. INVALID_ARGUMENT for displays that are no views, such as panels.
 // RESOURCE_EXHAUSTED for those that no video takes.
-absl::StatusOr<MovieCoding> planMovie(const WatchRequest& request);
+absl::StatusOr<MovieCoding> planMovie(const WatchRequest& request,
+                                      const VideoEncoderChoicePtr& encoders);
 
 // The player gets H.264 that its own encoder makes of the JPEG atlases, on context.movie_threads
 // and in the fair share of its identity. A picture that stands is coded again each second, so that

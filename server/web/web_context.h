@@ -17,6 +17,7 @@
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 #include "tls/tls_material.h"
+#include "video/encoder_choice.h"
 #include "web/host_policy.h"
 #include "web/message_pace.h"
 #include "web/movie_places.h"
@@ -37,7 +38,8 @@ struct HttpOptions {
   // Certificate and key of new connections, asked from any thread; none = no encryption.
   std::function<TlsMaterialPtr()> tls{};
 
-  uint32_t movie_count_max = 4;     // live videos
+  VideoEncoderChoicePtr video_encoders = VideoEncoderChoice::openH264();  // of live videos
+  uint32_t movie_count_max = 4;
   uint32_t movie_thread_count = 1;  // that encode them
   uint32_t header_bytes_max = 8192;
   uint32_t message_bytes_max = 128 << 10;  // of a viewer's text message: a calibration fits

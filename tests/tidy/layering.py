@@ -32,6 +32,7 @@ LAYERS = {
                              ["absl", "grpc", "nlohmann", "protobuf"]),
     "server/core/usage": (["base"], ["cli11"]),
     "server/core/video": (["base", "frame/size.h", SHADERS_SHARED], ["absl", "openh264"]),
+    "server/core/codecs": (["base", "frame/size.h", "video"], ["absl", "avcodec"]),
     "server/core/mp4": (["base", "frame/size.h", "video"], ["absl"]),
     "server/metrics": (["base"], ["prometheus"]),
     # Prices of memory, and its ledger.
@@ -74,14 +75,16 @@ LAYERS = {
     # Only make_engines includes the inside of an engine.
     "server/pipeline": (["base", "frame", "config", "decode", "display", "picture", "admission",
                          ENGINE, "engine/engines.h", "eye_poses", "retime", "temporal", "encode",
-                         "publish", "schedule", "metrics", SHADERS_SHARED],
+                         "publish", "schedule", "metrics", "video/encoder_choice.h",
+                         SHADERS_SHARED],
                         ["absl", "glm"]),
     "server/rpc": (["base", "access", "frame", "decode", "display", "admission", "eye_poses",
                     "messages", "metrics", BAND, "publish", "tls", "video/h264_parameters.h"],
                    ["absl", "grpc", "protobuf"]),
     "server/web": (["base", "access", "certificates", "frame", "display", "admission", "messages",
-                    "decode/jpeg_plane.h", "eye_poses", "metrics", "mp4", "publish",
-                    "schedule/fair_shares.h", "tls", "video/h264_parameters.h", BAND],
+                     "decode/jpeg_plane.h", "eye_poses", "metrics", "mp4", "publish",
+                     "schedule/fair_shares.h", "tls", "video/encoder_choice.h",
+                     "video/h264_parameters.h", BAND],
                    ["absl", "boost", "nlohmann", "openssl", "protobuf"]),
     "client/text": (["base", "frame/size.h"], ["absl", "sdl"]),
     "client/patterns": (["base", "frame", "synthetic", "text"], ["absl", "glm"]),
@@ -97,7 +100,8 @@ LAYERS = {
     "client/lib": (["base", "certificates", "frame", "messages", "video"],
                    ["absl", "grpc", "protobuf", "zstd", "jpeg"]),
     "client/eyes": (["base"], ["absl", "nlohmann", "protobuf"]),
-    "client/recording": (["base", "display", "lib", "mp4", "video/quantisation.h"],
+    "client/recording": (["base", "display", "lib", "mp4", "codecs",
+                          "video/encoder_choice.h", "video/quantisation.h"],
                          ["absl", "protobuf"]),
     "client/show": (["base", "frame/size.h", "calibration", "eyes", "lib", "files/file_bytes.h",
                      "text"],
@@ -137,7 +141,8 @@ INDEPENDENT = {
 }
 
 THIRD_PARTY = [
-    ("absl", r"absl/"), ("spdlog", r"spdlog/|fmt/"), ("prometheus", r"prometheus/"),
+    ("absl", r"absl/"), ("avcodec", r"libav(codec|util)/"), ("spdlog", r"spdlog/|fmt/"),
+    ("prometheus", r"prometheus/"),
     ("glm", r"glm/"), ("toml++", r"toml\+\+/"), ("nlohmann", r"nlohmann/"),
     ("zstd", r"zstd(_errors)?\.h"), ("jpeg", r"turbojpeg\.h|jpeglib\.h|jerror\.h|jmorecfg\.h"),
     ("png", r"png\.h"), ("tiff", r"tiffio\.h"), ("webp", r"webp/"), ("heif", r"libheif/"),

@@ -3,8 +3,6 @@
 
 #include <utility>
 
-#include "video/openh264_encoder.h"
-
 namespace viewloom {
 namespace {
 
@@ -16,7 +14,7 @@ constexpr uint64_t kEncoderBytesPerPx = 16;
 }  // namespace
 
 absl::StatusOr<std::unique_ptr<MovieCoder>> MovieCoder::make(const MovieCoding& coding) {
-  auto encoder = OpenH264Encoder::make(
+  auto encoder = coding.encoders->make(
       {.size_px = coding.video.picture_px, .qp = coding.qp, .thread_count = coding.thread_count});
   VIEWLOOM_RETURN_IF_ERROR(encoder.status());
   return std::unique_ptr<MovieCoder>(new MovieCoder(coding, *std::move(encoder)));

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/status.h"
+#include "video/encoder_choice.h"
 #include "video/tiled_picture.h"
-#include "video/video_encoder.h"
 
 namespace viewloom {
 
@@ -18,12 +18,13 @@ struct MovieCoding {
   VideoTiles video;           // of fitVideoTiles()
   uint32_t qp = 24;           // quantisation, kVideoQpMin..kVideoQpMax
   uint32_t thread_count = 1;  // as in VideoFormat
+  VideoEncoderChoicePtr encoders = VideoEncoderChoice::openH264();
 };
 
 // Thread-safety: none; one thread at a time.
 class MovieCoder {
  public:
-  // Errors as OpenH264Encoder::make.
+  // Errors as VideoEncoderChoice::make.
   static absl::StatusOr<std::unique_ptr<MovieCoder>> make(const MovieCoding& coding);
   // Bytes that one holds.
   static uint64_t memoryBytes(const MovieCoding& coding);

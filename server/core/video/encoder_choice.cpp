@@ -18,6 +18,11 @@ void joinName(std::string* out, const VideoEncoderKind& kind) {
   out->append(kind.name);
 }
 
+PictureLimit provenLimit(const VideoEncoderKind& kind) {
+  if (kind.tried_px == SizePx{} || kind.make({.size_px = kind.tried_px}).ok()) return kind.limit;
+  return {};
+}
+
 }  // namespace
 
 // Shared with encoders, which may outlive the choice.
@@ -51,7 +56,9 @@ absl::StatusOr<VideoEncoderChoicePtr> VideoEncoderChoice::choose(
     if (is_automatic ? !kind.is_automatic : kind.name != wanted) continue;
     probes.push_back(probeVideoEncoder(kind));
     if (probes.back().status.ok()) {
-      return std::make_shared<const VideoEncoderChoice>(kind, std::move(probes));
+      VideoEncoderKind taken = kind;
+      taken.limit = provenLimit(kind);
+      return std::make_shared<const VideoEncoderChoice>(std::move(taken), std::move(probes));
     }
   }
   return std::make_shared<const VideoEncoderChoice>(openH264Kind(), std::move(probes));

@@ -11,31 +11,9 @@
 namespace viewloom {
 namespace {
 
-constexpr uint32_t kThreadsMax = 16;
 // Changes no picture at a fixed quantisation. The library raises the level for higher rates, which
 // nobody knows before.
 constexpr float kNominalRate_hz = 1;
-
-absl::Status checkFormat(const VideoFormat& format) {
-  const SizePx size_px = format.size_px;
-  const bool is_even = size_px.width % 2 == 0 && size_px.height % 2 == 0;
-  if (!is_even || size_px.width < kVideoSideMin_px || size_px.height < kVideoSideMin_px ||
-      size_px.area() > kVideoAreaMax_px) {
-    return absl::InvalidArgumentError(strCat("pictures of ", size_px.width, "x", size_px.height,
-                                             " px; accepted are even sides of at least ",
-                                             kVideoSideMin_px, " px, and up to ", kVideoAreaMax_px,
-                                             " px together"));
-  }
-  if (format.qp < kVideoQpMin || format.qp > kVideoQpMax) {
-    return absl::InvalidArgumentError(
-        strCat("quantisation ", format.qp, "; accepted is ", kVideoQpMin, " to ", kVideoQpMax));
-  }
-  if (format.thread_count < 1 || format.thread_count > kThreadsMax) {
-    return absl::InvalidArgumentError(
-        strCat(format.thread_count, " threads; accepted are 1 to ", kThreadsMax));
-  }
-  return absl::OkStatus();
-}
 
 void setColor(SSpatialLayerConfig& layer) {
   layer.bVideoSignalTypePresent = true;
@@ -120,7 +98,7 @@ void OpenH264Encoder::Destroy::operator()(ISVCEncoder* encoder) const {
 }
 
 absl::StatusOr<std::unique_ptr<OpenH264Encoder>> OpenH264Encoder::make(const VideoFormat& format) {
-  VIEWLOOM_RETURN_IF_ERROR(checkFormat(format));
+  VIEWLOOM_RETURN_IF_ERROR(checkVideoFormat(format, {}));
   ISVCEncoder* made = nullptr;
   if (WelsCreateSVCEncoder(&made) != 0 || made == nullptr) {
     return absl::ResourceExhaustedError("there is no memory for a video encoder");

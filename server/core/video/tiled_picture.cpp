@@ -13,20 +13,8 @@
 namespace viewloom {
 namespace {
 
-constexpr uint64_t kBlockSide_px = 16;
-constexpr uint64_t kMacroblocksMax = kVideoAreaMax_px / (kBlockSide_px * kBlockSide_px);
-
 uint32_t evenSide(double side_px) {
   return std::max(uint32_t(side_px) / 2 * 2, 2U);
-}
-
-// Level 5.1 limits the macroblocks of a picture, and of each of its sides (table A-1, A.3.1).
-bool isWithinCodec(SizePx size_px) {
-  const uint64_t columns = (size_px.width + kBlockSide_px - 1) / kBlockSide_px;
-  const uint64_t rows = (size_px.height + kBlockSide_px - 1) / kBlockSide_px;
-  constexpr uint64_t kSquareMax = 8 * kMacroblocksMax;
-  return columns * rows <= kMacroblocksMax && columns * columns <= kSquareMax &&
-         rows * rows <= kSquareMax;
 }
 
 SizePx grid(const AtlasTiles& atlas, SizePx tile_px) {
@@ -81,7 +69,7 @@ void copyRows(const std::vector<uint8_t>& from, SizePx from_px, uint8_t* to, siz
 
 }  // namespace
 
-absl::StatusOr<VideoTiles> fitVideoTiles(const AtlasTiles& atlas) {
+absl::StatusOr<VideoTiles> fitVideoTiles(const AtlasTiles& atlas, const PictureLimit& limit) {
   const double aspect = double(atlas.tile_px.height) / atlas.tile_px.width;
   for (uint32_t width = evenSide(atlas.tile_px.width); width >= 2; width -= 2) {
     const bool is_full = width + 1 >= atlas.tile_px.width;
@@ -90,20 +78,21 @@ absl::StatusOr<VideoTiles> fitVideoTiles(const AtlasTiles& atlas) {
     const SizePx picture_px = grid(atlas, tile_px);
     const bool is_smaller =
         tile_px.width <= atlas.tile_px.width && tile_px.height <= atlas.tile_px.height;
-    if (!is_smaller || !isWithinCodec(picture_px)) continue;
+    if (!is_smaller || !limit.holds(picture_px)) continue;
     if (picture_px.width < kVideoSideMin_px || picture_px.height < kVideoSideMin_px) break;
     return VideoTiles{.tile_px = tile_px, .picture_px = picture_px};
   }
   return absl::ResourceExhaustedError(
       strCat("an atlas of ", text(atlas.atlas_px), " with ", atlas.columns, "x", atlas.rows,
              " views does not fit in a video; accepted are pictures from 16x16 px to ",
-             kVideoAreaMax_px, " px together. Choose fewer, or larger, views"));
+             limit.area_max_px, " px together. Choose fewer, or larger, views"));
 }
 
-std::string scalingNote(const AtlasTiles& atlas, const VideoTiles& video) {
+std::string scalingNote(const AtlasTiles& atlas, const VideoTiles& video,
+                        const PictureLimit& limit) {
   if (video.tile_px == atlas.tile_px) return "";
   return strCat("the atlas of ", text(grid(atlas, atlas.tile_px)), " is scaled to ",
-                text(video.picture_px), ", because H.264 takes up to ", kVideoAreaMax_px,
+                text(video.picture_px), ", because H.264 takes up to ", limit.area_max_px,
                 " px and even views (", text(video.tile_px), " instead of ", text(atlas.tile_px),
                 ")");
 }

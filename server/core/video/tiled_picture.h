@@ -11,6 +11,7 @@
 
 #include "base/status.h"
 #include "frame/size.h"
+#include "video/picture_limit.h"
 #include "video/plane_scaler.h"
 #include "video/video_picture.h"
 
@@ -36,12 +37,13 @@ struct VideoTiles {
   bool operator==(const VideoTiles&) const = default;
 };
 
-// The largest tiles that H.264 takes (kVideoAreaMax_px). RESOURCE_EXHAUSTED if there are too many
-// of them.
-absl::StatusOr<VideoTiles> fitVideoTiles(const AtlasTiles& atlas);
+// The largest tiles whose picture an encoder takes. RESOURCE_EXHAUSTED if there are too many of
+// them.
+absl::StatusOr<VideoTiles> fitVideoTiles(const AtlasTiles& atlas, const PictureLimit& limit = {});
 
 // "the atlas of 3360x3360 px is scaled to 3072x3072 px, ...". Empty where tiles keep their size.
-std::string scalingNote(const AtlasTiles& atlas, const VideoTiles& video);
+std::string scalingNote(const AtlasTiles& atlas, const VideoTiles& video,
+                        const PictureLimit& limit = {});
 
 // Colours of an atlas: uint8_t[height][width][channel_count] R, G, B, and with four channels one
 // that is ignored. Borrowed.

@@ -24,6 +24,9 @@ struct VideoFormat {
 
 inline constexpr uint32_t kVideoSideMin_px = 16;
 
+// INVALID_ARGUMENT for a format that an encoder with this limit does not take.
+absl::Status checkVideoFormat(const VideoFormat& format, const PictureLimit& limit);
+
 // Picture that a coded picture refers to.
 enum class Reference : uint8_t { kNone, kPictureBefore };
 

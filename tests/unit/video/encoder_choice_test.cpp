@@ -101,6 +101,14 @@ TEST(VideoEncoderChoice, doesNotTryALostDeviceAgain) {
   EXPECT_TRUE(isOpenH264());
 }
 
+TEST(VideoEncoderChoice, keepsTheLimitThatTheMachineHas) {
+  VideoEncoderKind large = plannedKind("large", {});
+  large.limit = {.area_max_px = kVideoAreaOfLevel6_px};
+  EXPECT_TRUE(chosen({large, openH264Kind()}, "auto")->limit().holds({3360, 3360}));
+  large.tried_px = {3360, 3360};  // which this encoder refuses
+  EXPECT_FALSE(chosen({large, openH264Kind()}, "auto")->limit().holds({3360, 3360}));
+}
+
 TEST(VideoEncoderChoice, makesOpenH264WhereAnotherCannotBeMade) {
   VideoEncoderKind large = plannedKind("large", {});
   large.make = [make = large.make](

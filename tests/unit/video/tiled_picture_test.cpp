@@ -45,6 +45,8 @@ TEST(VideoTiles, areScaledToTheCodecsLimit) {
   EXPECT_EQ(*tiles, (VideoTiles{.tile_px = {384, 512}, .picture_px = {3072, 3072}}));
   EXPECT_THAT(scalingNote(kPortrait, *tiles),
               testing::HasSubstr("the atlas of 3360x3360 px is scaled to 3072x3072 px"));
+  EXPECT_EQ(fitVideoTiles(kPortrait, {.area_max_px = kVideoAreaOfLevel6_px})->picture_px,
+            (SizePx{3360, 3360}));
   EXPECT_EQ(fitVideoTiles(kSmall)->tile_px, (SizePx{32, 32})) << "tiles have even sides";
 }
 
