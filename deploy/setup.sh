@@ -5,10 +5,11 @@ set -euo pipefail
 
 usage() {
   cat <<'TEXT'
-usage: deploy/setup.sh [--runtime | --dev]
+usage: deploy/setup.sh [--runtime | --dev | --hardware-video]
   (no option)  what it takes to build viewloomd and viewloom, and to run them
   --runtime    only what built programs need to run
   --dev        what it takes to build, and what only the tests need
+  --hardware-video  what it takes to build with VIEWLOOM_HARDWARE_VIDEO (deploy/video.md)
 TEXT
 }
 
@@ -30,6 +31,8 @@ build_packages=(
   libseccomp-dev prometheus-cpp-dev
   fonts-dejavu-core libepoxy-dev libsdl2-dev libsdl2-ttf-dev
 )
+# Under the GPL in Debian: only for VIEWLOOM_HARDWARE_VIDEO.
+hardware_video_packages=(libavcodec-dev libavutil-dev)
 test_packages=(
   libbenchmark-dev libgmock-dev libgtest-dev libimage-exiftool-perl vulkan-validationlayers
   chromium curl openssl python3-grpcio python3-numpy python3-pil python3-protobuf python3-zstandard mypy
@@ -45,6 +48,7 @@ case "${1:-}" in
   "") packages=("${build_packages[@]}") ;;
   --runtime) packages=("${runtime_packages[@]}") ;;
   --dev) packages=("${build_packages[@]}" "${test_packages[@]}") ;;
+  --hardware-video) packages=("${build_packages[@]}" "${hardware_video_packages[@]}") ;;
   -h | --help) usage; exit 0 ;;
   *) usage >&2; exit 2 ;;
 esac

@@ -167,6 +167,10 @@ PARTS = [
     Part("lint", "clang-tidy over server and client", "runs",
          lambda: [Step("clang-tidy", ["cmake", "--build", "build/lint", "--target", "clang_tidy"])],
          build("lint", "generated_headers")),
+    Part("hardware-video", "encoders of libavcodec, x264 in place of a GPU; needs "
+         "deploy/setup.sh --hardware-video", "runs",
+         lambda: [Step("tests of video", ["ctest", "--preset", "hardware-video"])],
+         build("hardware-video")),
     attack(),
     overload(),
     lasting(),
