@@ -41,6 +41,7 @@ class DeviceRoom final : public EngineRoom {
                    .memory = links.memory},
                   {.encode_thread_count = encode_thread_count,
                    .video_thread_count = config.pipeline.video_threads,
+                   .video_encoders = std::move(links.video_encoders),
                    .structure_slots_per_stream = config.pipeline.structure_slots,
                    .atlas_limits = limits}) {}
 

@@ -19,6 +19,7 @@
 #include "publish/broadcaster.h"
 #include "publish/stream_directory.h"
 #include "schedule/fair_shares.h"
+#include "video/encoder_choice.h"
 
 namespace viewloom {
 
@@ -48,6 +49,7 @@ struct EngineRoomLinks {
   Broadcaster& broadcaster;
   StreamDirectory& directory;
   MemoryBudget& memory;
+  VideoEncoderChoicePtr video_encoders;
   std::function<void(const std::exception& error)> on_failure;  // see Service
 };
 

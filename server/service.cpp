@@ -18,6 +18,7 @@
 #include "rpc/rpc_server.h"
 #include "service_memory.h"
 #include "service_options.h"
+#include "service_video.h"
 #include "tls/tls_watch.h"
 #include "web/http_server.h"
 
@@ -88,6 +89,7 @@ struct Service::Parts {
   StreamDirectory directory;
   Broadcaster broadcaster;
   BytePool planes;
+  const VideoEncoderChoicePtr video_encoders;
   const std::unique_ptr<EngineRoom> engine_room;
   FrameIntake intake;
   const PreparedBytes prepared_bytes;
@@ -110,6 +112,7 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
       directory(clock, config.limits.streams_max),
       broadcaster(broadcasterLimits(config.limits), memory),
       planes(kKeptPlaneCount, config.limits.frame_bytes_max),
+      video_encoders(chooseVideoEncoder(config.pipeline.video_encoder)),
       engine_room(openEngineRoom(config, atlasLimits(config.limits),
                                  threadCount(config.pipeline.encode_threads),
                                  {.clock = clock,
@@ -117,6 +120,7 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
                                   .broadcaster = broadcaster,
                                   .directory = directory,
                                   .memory = memory,
+                                  .video_encoders = video_encoders,
                                   .on_failure = std::move(on_failure)})),
       intake(*engine_room, clock, planes,
              {.thread_count = threadCount(config.pipeline.decode_threads),
@@ -163,6 +167,7 @@ std::function<TlsMaterialPtr()> Service::Parts::material() const {
 void Service::Parts::openHttp(const Config& config, const Clock& clock) {
   HttpOptions options = httpOptions(config.http, connection_shares.http);
   options.tls = material();
+  options.video_encoders = video_encoders;
   http.emplace(
       std::move(options), directory, broadcaster, *engine_room, metrics, clock, access,
       [this] { return grpcHealth(); }, memory, &engine_room->shares());

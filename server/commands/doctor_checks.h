@@ -26,6 +26,8 @@ bool hasProblem(const std::vector<Finding>& findings);
 
 // Whether atlases can be made: devices, and a small scene. A server without engines says so.
 std::vector<Finding> checkEngines(const Config& config);
+// Each video encoder, tried on a few pictures, and which one a server would use.
+std::vector<Finding> checkVideo(const Config& config);
 // Whether each listening address can be taken.
 std::vector<Finding> checkPorts(const Config& config);
 // Whether the files of access.* can be used.

@@ -38,6 +38,7 @@ int doctor(const Config& config) {
   tell(checkHost());
   tell(checkContainment(config));
   tell(checkEngines(config));
+  tell(checkVideo(config));
   tell(checkPorts(config));
   tell(checkAccess(config));
   tell(checkProtection(config));
@@ -49,7 +50,8 @@ int doctor(const Config& config) {
 
 void addDoctorCommand(const usage::Command& app, RunCommand& chosen) {
   const usage::Command command = app.addCommand(
-      "doctor", "Check the device, the ports and the host, and tell how to fix each problem");
+      "doctor",
+      "Check the device, video, the ports and the host, and tell how to fix each problem");
   command.onChosen([&chosen] { chosen = doctor; });
 }
 

@@ -60,7 +60,8 @@ struct PipelineConfig {
   uint32_t decode_threads = 0;  // 0 = see threadCount
   uint32_t encode_threads = 0;
   uint32_t video_threads = 1;
-  uint32_t structure_slots = 2;  // of each stream
+  std::string video_encoder = "auto";  // or the name of one (codecs/video_kinds.h)
+  uint32_t structure_slots = 2;        // of each stream
   uint32_t trace_slots = 3;
   bool warm_up = true;  // compile kernels of likely displays before they are asked for
 };

@@ -135,6 +135,10 @@ std::vector<Setting> pipelineSettings(PipelineConfig& pipeline) {
        CountSetting{&pipeline.encode_threads, 0, 64}},
       {"pipeline.video_threads", "", "Threads that encode one picture of H.264 together, in slices",
        CountSetting{&pipeline.video_threads, 1, 16}},
+      {"pipeline.video_encoder", "",
+       "Encoder of H.264: openh264, or one that `viewloomd doctor` lists; auto takes a GPU's, else "
+       "openh264",
+       TextSetting{&pipeline.video_encoder}},
       {"pipeline.structure_slots", "",
        "Frames of one stream in memory at once: one is rendered while the next is prepared",
        CountSetting{&pipeline.structure_slots, 2, 16}},

@@ -37,9 +37,9 @@ constexpr const char* kNvidiaDevice = "/dev/nvidiactl";
 
 // Variables that name files or folders of drivers and layers, separated by colons.
 constexpr const char* kDriverLists[] = {
-    "VK_ICD_FILENAMES", "VK_DRIVER_FILES",    "VK_ADD_DRIVER_FILES",
-    "VK_LAYER_PATH",    "VK_ADD_LAYER_PATH",  "VK_IMPLICIT_LAYER_PATH",
-    "LD_LIBRARY_PATH",  "LIBGL_DRIVERS_PATH", "VK_ADD_IMPLICIT_LAYER_PATH"};
+    "VK_ICD_FILENAMES",   "VK_DRIVER_FILES",           "VK_ADD_DRIVER_FILES", "VK_LAYER_PATH",
+    "VK_ADD_LAYER_PATH",  "VK_IMPLICIT_LAYER_PATH",    "LD_LIBRARY_PATH",     "LIBGL_DRIVERS_PATH",
+    "LIBVA_DRIVERS_PATH", "VK_ADD_IMPLICIT_LAYER_PATH"};
 
 std::vector<std::string> partsOf(const Environment& environment, const char* name) {
   return absl::StrSplit(environment(name).value_or(""), ':', absl::SkipEmpty());

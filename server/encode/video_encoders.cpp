@@ -9,7 +9,6 @@
 
 #include "base/idle_memory.h"
 #include "display/video_stack.h"
-#include "video/openh264_encoder.h"
 
 namespace viewloom {
 namespace {
@@ -78,17 +77,15 @@ struct VideoEncoders::Shelf final : IdleMemory {
   }
 };
 
-VideoEncoders::VideoEncoders(uint32_t thread_count)
-    : thread_count_(thread_count), shelf_(std::make_shared<Shelf>()) {}
+VideoEncoders::VideoEncoders(uint32_t thread_count, VideoEncoderChoicePtr choice)
+    : thread_count_(thread_count), choice_(std::move(choice)), shelf_(std::make_shared<Shelf>()) {}
 
 absl::StatusOr<EncoderPtr> VideoEncoders::take(SizePx picture_px, uint32_t qp) {
   const uint32_t slice_count_max = std::max(picture_px.height / kSliceRowsMin, 1U);
   const VideoFormat format = {
       .size_px = picture_px, .qp = qp, .thread_count = std::min(thread_count_, slice_count_max)};
   if (EncoderPtr waiting = shelf_->take(format)) return waiting;
-  auto made = OpenH264Encoder::make(format);
-  VIEWLOOM_RETURN_IF_ERROR(made.status());
-  return EncoderPtr(*std::move(made));
+  return choice_->make(format);
 }
 
 void VideoEncoders::putBack(EncoderPtr encoder) {

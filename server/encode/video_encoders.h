@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "video/video_encoder.h"
+#include "video/encoder_choice.h"
 
 namespace viewloom {
 
@@ -16,9 +16,10 @@ class IdleMemory;
 class VideoEncoders {
  public:
   // `thread_count`: threads of each encoder, 1..16.
-  explicit VideoEncoders(uint32_t thread_count);
+  explicit VideoEncoders(uint32_t thread_count,
+                         VideoEncoderChoicePtr choice = VideoEncoderChoice::openH264());
 
-  // An encoder that nobody else has. Errors as of OpenH264Encoder::make.
+  // An encoder that nobody else has. Errors as of VideoEncoderChoice::make.
   absl::StatusOr<std::unique_ptr<VideoEncoder>> take(SizePx picture_px, uint32_t qp);
   // Keeps the newest few.
   void putBack(std::unique_ptr<VideoEncoder> encoder);
@@ -30,6 +31,7 @@ class VideoEncoders {
   struct Shelf;
 
   const uint32_t thread_count_;
+  const VideoEncoderChoicePtr choice_;
   const std::shared_ptr<Shelf> shelf_;
 };
 

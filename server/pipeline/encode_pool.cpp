@@ -82,17 +82,17 @@ struct EncodePool::StripPixels {
 };
 
 EncodePool::EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, FairShares& shares,
-                       uint32_t thread_count, uint32_t video_thread_count)
+                       const EncodePoolOptions& options)
     : links_(links),
       publisher_(publisher),
       bytes_(kKeptBandCount),
       planes_(kKeptPictureCount),
-      video_encoders_(video_thread_count),
+      video_encoders_(options.video_thread_count, options.video_encoders),
       tasks_(shares) {
   links_.memory.addIdle(bytes_.idleMemory());
   links_.memory.addIdle(planes_.idleMemory());
   links_.memory.addIdle(video_encoders_.idleMemory());
-  for (uint32_t i = 0; i < thread_count; ++i) {
+  for (uint32_t i = 0; i < options.thread_count; ++i) {
     threads_.emplace_back([this] {
       nameThread("encode");
       computeInBatches();

@@ -14,12 +14,17 @@
 
 namespace viewloom {
 
+struct EncodePoolOptions {
+  uint32_t thread_count = 1;
+  uint32_t video_thread_count = 1;  // that code a picture of a video together
+  VideoEncoderChoicePtr video_encoders;
+};
+
 // Thread-safety: all methods may be called from any thread.
 class EncodePool {
  public:
-  // `video_thread_count`: threads that code a picture of a video together.
   EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, FairShares& shares,
-             uint32_t thread_count, uint32_t video_thread_count);
+             const EncodePoolOptions& options);
   ~EncodePool() { stop(); }
 
   // Finished by as many threads as come free, then packed by them.

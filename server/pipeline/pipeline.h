@@ -11,6 +11,7 @@
 #include "display/atlas_layout.h"
 #include "pipeline/pipeline_links.h"
 #include "publish/atlas_maker.h"
+#include "video/encoder_choice.h"
 
 namespace viewloom {
 
@@ -18,7 +19,8 @@ class FairShares;
 
 struct PipelineOptions {
   uint32_t encode_thread_count = 2;
-  uint32_t video_thread_count = 1;          // that code one picture of a video together
+  uint32_t video_thread_count = 1;  // that code one picture of a video together
+  VideoEncoderChoicePtr video_encoders = VideoEncoderChoice::openH264();
   uint32_t structure_slots_per_stream = 2;  // >= 2: one is traced while the next is built
   AtlasLimits atlas_limits;
 };

@@ -184,6 +184,7 @@ TEST(Doctor, saysWhichPortIsTakenAndWhatToDo) {
       runViewloomd("doctor --grpc.address " + taken + " --http.address 127.0.0.1:0");
   EXPECT_EQ(free.exit_code, 0) << free.output;
   EXPECT_THAT(free.output, HasSubstr("a small scene was rendered"));
+  EXPECT_THAT(free.output, HasSubstr("ok      video  openh264 (OpenH264 2."));
 }
 
 TEST(Doctor, namesADeviceThatDoesNotExist) {
