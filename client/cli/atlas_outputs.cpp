@@ -3,7 +3,25 @@
 
 #include <utility>
 
+#include "recording/file_encoder.h"
+
 namespace viewloom::cli {
+
+void addVideoEncoderOption(const usage::Command& app, std::string& encoder) {
+  app.add("--video-encoder", encoder,
+          "Encoder of a video; a wrong name lists those of this program\n"
+          "auto   one that takes large quilts unscaled, if this program has one that works here;\n"
+          "       else openh264")
+      .valueName("NAME")
+      .showDefault();
+}
+
+void addVideoOptions(const usage::Command& app, AtlasOutputOptions& options) {
+  app.add("--video", options.video,
+          "Save the atlases as a video (MP4) for players of quilts; the name gets the layout")
+      .valueName("FILE");
+  addVideoEncoderOption(app, options.video_encoder);
+}
 
 absl::StatusOr<std::unique_ptr<AtlasOutputs>> AtlasOutputs::open(const AtlasOutputOptions& options,
                                                                  StatusLine& line) {
@@ -11,7 +29,9 @@ absl::StatusOr<std::unique_ptr<AtlasOutputs>> AtlasOutputs::open(const AtlasOutp
   std::unique_ptr<AtlasOutputs> outputs(new AtlasOutputs(line));
   if (!options.files.folder.empty()) outputs->files_.emplace(options.files);
   if (options.video.empty()) return outputs;
-  auto video = AtlasVideo::create(options.video, options.files.stream);
+  auto encoders = chooseFileEncoder(options.video_encoder);
+  if (!encoders.ok()) return withFieldPrefix(encoders.status(), "--video-encoder");
+  auto video = AtlasVideo::create(options.video, options.files.stream, *std::move(encoders));
   VIEWLOOM_RETURN_IF_ERROR(video.status());
   outputs->video_ = *std::move(video);
   return outputs;

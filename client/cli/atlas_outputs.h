@@ -11,18 +11,25 @@
 #include "cli/interrupt.h"
 #include "cli/status_line.h"
 #include "recording/atlas_video.h"
+#include "usage/command_line.h"
 
 namespace viewloom::cli {
 
 struct AtlasOutputOptions {
-  AtlasFileOptions files;  // folder "" = none are written
-  std::string video;       // MP4 to write; "" = none
+  AtlasFileOptions files;              // folder "" = none are written
+  std::string video;                   // MP4 to write; "" = none
+  std::string video_encoder = "auto";  // as chooseFileEncoder takes it
 
   // Whether files have the bytes of JPEG that the server made.
   bool keepsJpeg() const {
     return !files.folder.empty() && !files.writes_png && !files.writes_views;
   }
 };
+
+// Adds --video-encoder, for commands that write videos.
+void addVideoEncoderOption(const usage::Command& app, std::string& encoder);
+// Adds --video and --video-encoder.
+void addVideoOptions(const usage::Command& app, AtlasOutputOptions& options);
 
 // Thread-safety: none; one owner at a time.
 class AtlasOutputs {

@@ -8,6 +8,7 @@
 
 #include "base/clock.h"
 #include "base/str_cat.h"
+#include "cli/atlas_outputs.h"
 #include "cli/display_options.h"
 #include "cli/interrupt.h"
 #include "cli/report_error.h"
@@ -17,6 +18,7 @@
 #include "lib/preferred_video.h"
 #include "lib/watcher.h"
 #include "recording/atlas_recording.h"
+#include "recording/file_encoder.h"
 #include "recording/video_recorder.h"
 
 namespace viewloom::cli {
@@ -28,6 +30,7 @@ constexpr int64_t kInterruptedAtlas_ns = 800'000'000;  // the same after Ctrl-C
 struct RecordOptions {
   std::string stream = "demo";
   std::string file;
+  std::string video_encoder = "auto";
   DisplayOptions display;
   uint32_t count = 0;
   double duration_s = 0;
@@ -74,7 +77,9 @@ class RecordRun {
 
   absl::StatusOr<std::unique_ptr<AtlasTarget>> openTarget() const {
     if (isVideoName(options_.file)) {
-      return VideoRecorder::create(options_.file, options_.stream, clock_);
+      auto encoders = chooseFileEncoder(options_.video_encoder);
+      if (!encoders.ok()) return withFieldPrefix(encoders.status(), "--video-encoder");
+      return VideoRecorder::create(options_.file, options_.stream, clock_, *std::move(encoders));
     }
     return AtlasRecorder::create(options_.file, clock_);
   }
@@ -181,6 +186,7 @@ RunCommand addRecordCommand(const usage::Command& app) {
           "A name that ends in .mp4 gives a video for players of quilts")
       .valueName("FILE")
       .required();
+  addVideoEncoderOption(app, options->video_encoder);
   app.add("--count", options->count, "Atlases to record; 0 records until Ctrl-C").showDefault();
   app.add("--seconds", options->duration_s, "Length of the recording; 0 records until Ctrl-C")
       .valueName("SECONDS")

@@ -37,7 +37,7 @@ struct WatchOptions {
   std::string folder;
   bool writes_views = false;
   std::string format = "jpg";
-  std::string video;  // "" = none is written
+  AtlasOutputOptions output;  // its video
   uint32_t count = 0;
   bool fails_without_stream = false;
   bool has_no_retry = false;
@@ -93,11 +93,12 @@ class WatchRun {
   }
 
   AtlasOutputOptions outputOptions(const std::string& stream) const {
-    return {.files = {.folder = options_.folder,
-                      .stream = stream,
-                      .writes_views = options_.writes_views,
-                      .writes_png = options_.format == "png"},
-            .video = options_.video};
+    AtlasOutputOptions output = options_.output;
+    output.files = {.folder = options_.folder,
+                    .stream = stream,
+                    .writes_views = options_.writes_views,
+                    .writes_png = options_.format == "png"};
+    return output;
   }
 
   absl::Status openEyes(const v1::Display& display) {
@@ -282,9 +283,7 @@ RunCommand addWatchCommand(const usage::Command& app) {
       app.add("--out", options->folder, "Save each atlas in this folder").valueName("FOLDER");
   app.addFlag("--views", options->writes_views, "Save single views instead of atlases").needs(out);
   app.add("--format", options->format, "Format of the files").oneOf({"jpg", "png"}).showDefault();
-  app.add("--video", options->video,
-          "Save the atlases as a video (MP4) for players of quilts; the name gets the layout")
-      .valueName("FILE");
+  addVideoOptions(app, options->output);
   app.addFlag("--no-wait", options->fails_without_stream,
               "End if the server has no such stream, instead of waiting for it");
   app.addFlag("--no-retry", options->has_no_retry,

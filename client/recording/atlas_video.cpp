@@ -77,30 +77,37 @@ bool isVideoName(const std::filesystem::path& path) {
   return path.extension() == kEnding;
 }
 
-AtlasVideo::AtlasVideo(std::filesystem::path path, std::string title)
-    : path_(std::move(path)), title_(std::move(title)), written_path_(path_) {}
+AtlasVideo::AtlasVideo(std::filesystem::path path, std::string title,
+                       VideoEncoderChoicePtr encoders)
+    : path_(std::move(path)),
+      title_(std::move(title)),
+      encoders_(std::move(encoders)),
+      written_path_(path_) {}
 
 absl::StatusOr<std::unique_ptr<AtlasVideo>> AtlasVideo::create(std::filesystem::path path,
-                                                               std::string title) {
+                                                               std::string title,
+                                                               VideoEncoderChoicePtr encoders) {
   if (!isVideoName(path)) {
     return absl::InvalidArgumentError(strCat(
         "\"", path.string(), "\": is no name of a video; accepted is a name that ends in .mp4"));
   }
   VIEWLOOM_RETURN_IF_ERROR(checkOutput(path));
-  return std::unique_ptr<AtlasVideo>(new AtlasVideo(std::move(path), std::move(title)));
+  return std::unique_ptr<AtlasVideo>(
+      new AtlasVideo(std::move(path), std::move(title), std::move(encoders)));
 }
 
 absl::Status AtlasVideo::begin(const v1::AtlasLayout& layout) {
   VIEWLOOM_RETURN_IF_ERROR(checkPlayable(layout));
   tiles_ = tilesOf(layout);
-  const absl::StatusOr<VideoTiles> fitted = fitVideoTiles(tiles_);
+  const absl::StatusOr<VideoTiles> fitted = fitVideoTiles(tiles_, encoders_->limit());
   VIEWLOOM_RETURN_IF_ERROR(fitted.status());
   video_tiles_ = *fitted;
   auto coder = MovieCoder::make(
       {.atlas = tiles_,
        .video = video_tiles_,
        .qp = qpOf(layout.encoding()),
-       .thread_count = std::clamp(std::thread::hardware_concurrency(), 1U, kThreadsMax)});
+       .thread_count = std::clamp(std::thread::hardware_concurrency(), 1U, kThreadsMax),
+       .encoders = encoders_});
   VIEWLOOM_RETURN_IF_ERROR(coder.status());
   written_path_ = withSuffix(path_, layout.suffix());
   auto file = MovieFile::create(
@@ -142,7 +149,7 @@ absl::Status AtlasVideo::complete(int64_t now_ns) {
 
 std::string AtlasVideo::summary() const {
   const uint64_t count = pictureCount();
-  const std::string scaling = scalingNote(tiles_, video_tiles_);
+  const std::string scaling = scalingNote(tiles_, video_tiles_, encoders_->limit());
   const double seconds = static_cast<double>(end_ns_) * 1e-9;
   return strCat(written_path_.string(), ": ", count, count == 1 ? " picture" : " pictures", " of ",
                 video_tiles_.picture_px.width, "x", video_tiles_.picture_px.height, " px in ",

@@ -20,14 +20,15 @@ namespace viewloom {
 bool isVideoName(const std::filesystem::path& path);
 
 // The tiles lie as in the atlas. The file's name and its metadata say how: "clip.mp4" becomes
-// "clip_qs8x6a0.75.mp4". Atlases larger than the codec takes are scaled. Without complete(),
+// "clip_qs8x6a0.75.mp4". Atlases larger than the encoder takes are scaled. Without complete(),
 // nothing is left behind. Thread-safety: none; one owner at a time.
 class AtlasVideo {
  public:
   // `title`: for the metadata, such as the name of the stream. INVALID_ARGUMENT if the name does
   // not end in ".mp4", or no file can be written there.
-  static absl::StatusOr<std::unique_ptr<AtlasVideo>> create(std::filesystem::path path,
-                                                            std::string title);
+  static absl::StatusOr<std::unique_ptr<AtlasVideo>> create(
+      std::filesystem::path path, std::string title,
+      VideoEncoderChoicePtr encoders = VideoEncoderChoice::openH264());
 
   // The next atlas, which came at that time of a monotonic clock. Takes as long as coding does.
   // FAILED_PRECONDITION if the atlas is for no player, such as that of a panel or one of another
@@ -43,11 +44,12 @@ class AtlasVideo {
   std::string summary() const;
 
  private:
-  AtlasVideo(std::filesystem::path path, std::string title);
+  AtlasVideo(std::filesystem::path path, std::string title, VideoEncoderChoicePtr encoders);
   absl::Status begin(const v1::AtlasLayout& layout);
 
   const std::filesystem::path path_;  // as it was asked for
   const std::string title_;
+  const VideoEncoderChoicePtr encoders_;
   std::filesystem::path written_path_;  // with the layout in its name
   AtlasTiles tiles_;
   VideoTiles video_tiles_;

@@ -6,8 +6,9 @@
 namespace viewloom {
 
 absl::StatusOr<std::unique_ptr<VideoRecorder>> VideoRecorder::create(
-    const std::filesystem::path& path, const std::string& title, const Clock& clock) {
-  auto video = AtlasVideo::create(path, title);
+    const std::filesystem::path& path, const std::string& title, const Clock& clock,
+    VideoEncoderChoicePtr encoders) {
+  auto video = AtlasVideo::create(path, title, std::move(encoders));
   VIEWLOOM_RETURN_IF_ERROR(video.status());
   return std::unique_ptr<VideoRecorder>(new VideoRecorder(*std::move(video), clock));
 }

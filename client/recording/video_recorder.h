@@ -14,9 +14,9 @@ namespace viewloom {
 class VideoRecorder final : public AtlasTarget {
  public:
   // The clock must outlive the recorder. Errors as AtlasVideo::create.
-  static absl::StatusOr<std::unique_ptr<VideoRecorder>> create(const std::filesystem::path& path,
-                                                               const std::string& title,
-                                                               const Clock& clock);
+  static absl::StatusOr<std::unique_ptr<VideoRecorder>> create(
+      const std::filesystem::path& path, const std::string& title, const Clock& clock,
+      VideoEncoderChoicePtr encoders = VideoEncoderChoice::openH264());
 
   // Also the errors of AtlasAssembler::add and AtlasVideo::add.
   absl::Status add(const v1::StreamAtlasesResponse& message) override;
