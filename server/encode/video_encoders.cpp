@@ -9,6 +9,7 @@
 
 #include "base/idle_memory.h"
 #include "display/video_stack.h"
+#include "video/view_format.h"
 
 namespace viewloom {
 namespace {
@@ -82,8 +83,8 @@ VideoEncoders::VideoEncoders(uint32_t thread_count, VideoEncoderChoicePtr choice
 
 absl::StatusOr<EncoderPtr> VideoEncoders::take(SizePx picture_px, uint32_t qp) {
   const uint32_t slice_count_max = std::max(picture_px.height / kSliceRowsMin, 1U);
-  const VideoFormat format = {
-      .size_px = picture_px, .qp = qp, .thread_count = std::min(thread_count_, slice_count_max)};
+  VideoFormat format = viewFormat(picture_px, qp);
+  if (qp >= kThreadedQpMin) format.thread_count = std::min(thread_count_, slice_count_max);
   if (EncoderPtr waiting = shelf_->take(format)) return waiting;
   return choice_->make(format);
 }

@@ -19,7 +19,7 @@ class VideoEncoders {
   explicit VideoEncoders(uint32_t thread_count,
                          VideoEncoderChoicePtr choice = VideoEncoderChoice::openH264());
 
-  // An encoder that nobody else has. Errors as of VideoEncoderChoice::make.
+  // An encoder of views (viewFormat) that nobody else has. Errors as of VideoEncoderChoice::make.
   absl::StatusOr<std::unique_ptr<VideoEncoder>> take(SizePx picture_px, uint32_t qp);
   // Keeps the newest few.
   void putBack(std::unique_ptr<VideoEncoder> encoder);

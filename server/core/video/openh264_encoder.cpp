@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "video/openh264_encoder.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <wels/codec_api.h>
@@ -11,9 +12,28 @@
 namespace viewloom {
 namespace {
 
+// Values of disable_deblocking_filter_idc (7.4.3). Across the edges of slices decoders would filter
+// in a pass of its own, on one thread.
+constexpr int kFilterAll = 0;
+constexpr int kFilterWithinSlices = 2;
 // Changes no picture at a fixed quantisation. The library raises the level for higher rates, which
 // nobody knows before.
 constexpr float kNominalRate_hz = 1;
+
+bool isArithmetic(const VideoFormat& format) {
+  return format.entropy == EntropyCoding::kArithmetic;
+}
+
+absl::Status checkFormat(const VideoFormat& format) {
+  VIEWLOOM_RETURN_IF_ERROR(checkVideoFormat(format, {}));
+  if (format.thread_count > 1 && !isArithmetic(format) && format.qp < kThreadedQpMin) {
+    return absl::InvalidArgumentError(
+        strCat("quantisation ", format.qp, " with entropy coding of variable length on ",
+               format.thread_count, " threads; accepted is ", kThreadedQpMin, " to ", kVideoQpMax,
+               ", or one thread"));
+  }
+  return absl::OkStatus();
+}
 
 void setColor(SSpatialLayerConfig& layer) {
   layer.bVideoSignalTypePresent = true;
@@ -25,6 +45,10 @@ void setColor(SSpatialLayerConfig& layer) {
   layer.uiColorMatrix = CM_SMPTE170M;
 }
 
+uint32_t sliceCount(const VideoFormat& format) {
+  return std::max(format.slice_count, format.thread_count);
+}
+
 void setLayer(const VideoFormat& format, SSpatialLayerConfig& layer) {
   layer.iVideoWidth = int(format.size_px.width);
   layer.iVideoHeight = int(format.size_px.height);
@@ -34,9 +58,9 @@ void setLayer(const VideoFormat& format, SSpatialLayerConfig& layer) {
   layer.iDLayerQp = int(format.qp);
   layer.iSpatialBitrate = UNSPECIFIED_BIT_RATE;
   layer.iMaxSpatialBitrate = UNSPECIFIED_BIT_RATE;
-  const bool is_sliced = format.thread_count > 1;
+  const bool is_sliced = sliceCount(format) > 1;
   layer.sSliceArgument.uiSliceMode = is_sliced ? SM_FIXEDSLCNUM_SLICE : SM_SINGLE_SLICE;
-  layer.sSliceArgument.uiSliceNum = format.thread_count;
+  layer.sSliceArgument.uiSliceNum = sliceCount(format);
   setColor(layer);
 }
 
@@ -56,7 +80,8 @@ void setParameters(const VideoFormat& format, SEncParamExt& parameters) {
   parameters.uiIntraPeriod = 0;
   parameters.iNumRefFrame = 1;
   parameters.eSpsPpsIdStrategy = CONSTANT_ID;
-  parameters.iEntropyCodingModeFlag = 1;
+  parameters.iEntropyCodingModeFlag = isArithmetic(format) ? 1 : 0;
+  parameters.iLoopFilterDisableIdc = sliceCount(format) > 1 ? kFilterWithinSlices : kFilterAll;
   parameters.iMultipleThreadIdc = uint16_t(format.thread_count);
   parameters.bUseLoadBalancing = false;
   parameters.bEnableFrameSkip = false;
@@ -98,7 +123,7 @@ void OpenH264Encoder::Destroy::operator()(ISVCEncoder* encoder) const {
 }
 
 absl::StatusOr<std::unique_ptr<OpenH264Encoder>> OpenH264Encoder::make(const VideoFormat& format) {
-  VIEWLOOM_RETURN_IF_ERROR(checkVideoFormat(format, {}));
+  VIEWLOOM_RETURN_IF_ERROR(checkFormat(format));
   ISVCEncoder* made = nullptr;
   if (WelsCreateSVCEncoder(&made) != 0 || made == nullptr) {
     return absl::ResourceExhaustedError("there is no memory for a video encoder");

@@ -10,8 +10,8 @@ class ISVCEncoder;
 
 namespace viewloom {
 
-// Main profile with CABAC, at a fixed quantisation. Its parameter sets say the true level, the
-// colour of shared/ycbcr.h, and that no picture is reordered.
+// Codes at a fixed quantisation. Its parameter sets say the true level, the colour of
+// shared/ycbcr.h, and that no picture is reordered.
 class OpenH264Encoder final : public VideoEncoder {
  public:
   // INVALID_ARGUMENT for a format out of range, RESOURCE_EXHAUSTED if memory is missing.

@@ -7,6 +7,7 @@ namespace viewloom {
 
 absl::Status checkVideoFormat(const VideoFormat& format, const PictureLimit& limit) {
   constexpr uint32_t kThreadsMax = 16;
+  constexpr uint32_t kSlicesMax = 16;
   const SizePx size_px = format.size_px;
   const bool is_even = size_px.width % 2 == 0 && size_px.height % 2 == 0;
   if (!is_even || size_px.width < kVideoSideMin_px || size_px.height < kVideoSideMin_px ||
@@ -23,6 +24,10 @@ absl::Status checkVideoFormat(const VideoFormat& format, const PictureLimit& lim
   if (format.thread_count < 1 || format.thread_count > kThreadsMax) {
     return absl::InvalidArgumentError(
         strCat(format.thread_count, " threads; accepted are 1 to ", kThreadsMax));
+  }
+  if (format.slice_count < 1 || format.slice_count > kSlicesMax) {
+    return absl::InvalidArgumentError(
+        strCat(format.slice_count, " slices; accepted are 1 to ", kSlicesMax));
   }
   return absl::OkStatus();
 }

@@ -13,11 +13,20 @@
 
 namespace viewloom {
 
+// Coding of syntax elements as bits (9.2 and 9.3).
+enum class EntropyCoding : uint8_t {
+  kArithmetic,      // CABAC: a twelfth less bytes
+  kVariableLength,  // CAVLC: decoders take half of the time
+};
+
 // Format of all pictures of an encoder.
 struct VideoFormat {
   SizePx size_px;             // even, from 16x16 px to the limit of the encoder
   uint32_t qp = 26;           // quantisation, kVideoQpMin..kVideoQpMax
-  uint32_t thread_count = 1;  // each codes a slice of a picture; 1 = the caller's thread
+  uint32_t thread_count = 1;  // 1..16, each codes a slice of a picture; 1 = the caller's thread
+  // A wish, 1..16: slices of a picture at least; decoders' threads share them.
+  uint32_t slice_count = 1;
+  EntropyCoding entropy = EntropyCoding::kArithmetic;  // a wish, too
 
   bool operator==(const VideoFormat&) const = default;
 };

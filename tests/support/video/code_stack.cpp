@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes views as video, for tests and measurements of clients without a server.
+// Codes views as the server does it, for tests and measurements of clients without a server.
 // Arguments: view width, view height, view count, quantisation (20..51). Standard input: atlases of
 // views, each uint8_t[view][y][x][3] R, G, B. For each atlas it writes a line of JSON and the
 // access units: {"video": ..., "picture_bytes": [...]}, where video has the fields of proto
@@ -14,6 +14,7 @@
 #include "shared/ycbcr.h"
 #include "video/h264_parameters.h"
 #include "video/openh264_encoder.h"
+#include "video/view_format.h"
 
 namespace viewloom::test {
 namespace {
@@ -116,7 +117,7 @@ absl::Status writeAtlas(const Views& views, const VideoStack& stack, VideoEncode
 absl::Status codeAll(SizePx view_px, uint32_t view_count, uint32_t qp) {
   const absl::StatusOr<VideoStack> stack = planVideoStack(view_px, view_count);
   VIEWLOOM_RETURN_IF_ERROR(stack.status());
-  auto encoder = OpenH264Encoder::make({.size_px = stack->pictureSize(), .qp = qp});
+  auto encoder = OpenH264Encoder::make(viewFormat(stack->pictureSize(), qp));
   VIEWLOOM_RETURN_IF_ERROR(encoder.status());
   Views views{.view_px = view_px, .rgb = std::vector<uint8_t>(view_px.area() * 3 * view_count)};
   while (

@@ -31,6 +31,14 @@ TEST(VideoEncoders, serveTheNextAtlasOfTheSameFormat) {
 TEST(VideoEncoders, cutNoPictureIntoSlicesOfAFewRows) {
   VideoEncoders encoders(4);
   EXPECT_EQ(taken(encoders, 24)->format().thread_count, 1u);
+  EXPECT_EQ(taken(encoders, 24)->format().slice_count, 1u);
+}
+
+// The threads of the library do not check what noise takes.
+TEST(VideoEncoders, codeFineVideoOnOneThread) {
+  VideoEncoders encoders(2);
+  EXPECT_EQ(encoders.take({64, 128}, kThreadedQpMin)->get()->format().thread_count, 2u);
+  EXPECT_EQ(encoders.take({64, 128}, kThreadedQpMin - 1)->get()->format().thread_count, 1u);
 }
 
 TEST(VideoEncoders, letIdleMemoryGo) {

@@ -7,11 +7,14 @@
 #include "video/h264_parameters.h"
 #include "video/openh264_decoder.h"
 #include "video/openh264_encoder.h"
+#include "video/view_format.h"
 
 namespace viewloom::test::openh264_test {
 namespace {
 
 using AccessUnit = std::vector<uint8_t>;
+
+constexpr EntropyCoding kEntropies[] = {EntropyCoding::kArithmetic, EntropyCoding::kVariableLength};
 
 std::unique_ptr<OpenH264Encoder> encoderOf(const VideoFormat& format) {
   auto encoder = OpenH264Encoder::make(format);
@@ -54,9 +57,9 @@ std::vector<NalType> typesOf(const AccessUnit& unit) {
 
 TEST(OpenH264, decodesEveryPictureOfAStackRightAway) {
   const SizePx size_px{322, 202};
-  const auto encoder = encoderOf({.size_px = size_px, .qp = 22});
   const auto decoder = newDecoder();
-  for (int atlas = 0; atlas < 2; ++atlas) {
+  for (const EntropyCoding entropy : kEntropies) {
+    const auto encoder = encoderOf({.size_px = size_px, .qp = 22, .entropy = entropy});
     const std::vector<AccessUnit> units = codedStack(*encoder, 4);
     for (int i = 0; i < 4; ++i) {
       const auto picture = decoder->decode(units[size_t(i)], size_px);
@@ -111,7 +114,7 @@ TEST(OpenH264, keepsFlatPatchesWithinOneCode) {
 TEST(OpenH264, takesPicturesFromTheSmallestToTheLargest) {
   for (const SizePx size_px : {SizePx{16, 16}, SizePx{18, 16}, SizePx{352, 288}, SizePx{720, 576},
                                SizePx{1280, 720}, SizePx{4096, 16}, SizePx{4096, 2176}}) {
-    const auto encoder = encoderOf({.size_px = size_px});
+    const auto encoder = encoderOf(viewFormat(size_px, 26));
     const auto decoder = newDecoder();
     const std::vector<AccessUnit> units = codedStack(*encoder, 2);
     const auto parameters = h264ParametersOf(units.front());
@@ -134,13 +137,32 @@ TEST(OpenH264, codesSlicesOnSeveralThreads) {
   for (const AccessUnit& unit : units) EXPECT_TRUE(decoder->decode(unit, size_px).ok());
 }
 
+TEST(OpenH264, codesTheSameSlicesOnAnyThreads) {
+  VideoFormat format = viewFormat({320, 1120}, 26);
+  EXPECT_EQ(format.slice_count, 4u);
+  const std::vector<AccessUnit> units = codedStack(*encoderOf(format), 3);
+  EXPECT_EQ(typesOf(units[1]), std::vector<NalType>(4, NalType::kSlice));
+  format.thread_count = 4;
+  EXPECT_EQ(codedStack(*encoderOf(format), 3), units);
+}
+
+constexpr EntropyCoding kFast = EntropyCoding::kVariableLength;
+// The finest ones.
+constexpr VideoFormat kNoisyFormats[] = {
+    {.qp = kVideoQpMin},
+    {.qp = kVideoQpMin, .thread_count = 4},
+    {.qp = kVideoQpMin, .entropy = kFast},
+    {.qp = kVideoQpMin, .slice_count = 4, .entropy = kFast},
+    {.qp = kThreadedQpMin, .thread_count = 4, .entropy = kFast},
+};
+
 // Noise takes the most bytes. An encoder may refuse it, but never writes past its buffers.
 TEST(OpenH264, codesNoiseOrRefusesIt) {
-  for (const SizePx size_px : {SizePx{64, 64}, SizePx{256, 256}}) {
-    for (const uint32_t thread_count : {1, 4}) {
-      const auto encoder =
-          encoderOf({.size_px = size_px, .qp = kVideoQpMin, .thread_count = thread_count});
-      const SamplePicture noise = SamplePicture::noise(size_px);
+  for (const SizePx size_px : {SizePx{64, 64}, SizePx{128, 128}, SizePx{256, 256}}) {
+    const SamplePicture noise = SamplePicture::noise(size_px);
+    for (VideoFormat format : kNoisyFormats) {
+      format.size_px = size_px;
+      const auto encoder = encoderOf(format);
       for (int i = 0; i < 3; ++i) {
         AccessUnit unit;
         const absl::Status status = encoder->encode(noise.video(), referenceOf(i), unit);
@@ -156,7 +178,13 @@ TEST(OpenH264, refusesFormatsThatItCannotCode) {
         VideoFormat{.size_px = {4096, 2306}},
         VideoFormat{.size_px = {64, 64}, .qp = kVideoQpMin - 1},
         VideoFormat{.size_px = {64, 64}, .qp = kVideoQpMax + 1},
-        VideoFormat{.size_px = {64, 64}, .thread_count = 17}}) {
+        VideoFormat{.size_px = {64, 64}, .thread_count = 17},
+        VideoFormat{.size_px = {64, 64},
+        .qp = kThreadedQpMin - 1,
+        .thread_count = 2,
+        .entropy = EntropyCoding::kVariableLength},
+        VideoFormat{.size_px = {64, 64}, .slice_count = 0},
+        VideoFormat{.size_px = {64, 64}, .slice_count = 17}}) {
     EXPECT_EQ(OpenH264Encoder::make(format).status().code(), absl::StatusCode::kInvalidArgument);
   }
 }
