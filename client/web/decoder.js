@@ -39,9 +39,9 @@ export function parseAtlasMessage(message) {
 }
 
 // {bitmap}, or {planes} of a video (video_planes.js).
-async function decodedColor({blob, pictures, layout, form}) {
+async function decodedColor({blob, pictures, layout}) {
   if (pictures.length === 0) return {bitmap: await createImageBitmap(blob)};
-  return {...await videos.decode(pictures, layout, form), upload: videos.uploadOf(form)};
+  return {...await videos.decode(pictures, layout), upload: videos.upload};
 }
 
 // The same, and `depth` of compact bands alone: {inv_z, columns, rows}.
@@ -70,7 +70,6 @@ export class Decoder {
     this.onDecoded = onDecoded;
     this.onDropped = onDropped;
     this.onVideoFailed = onVideoFailed;
-    this.form = 'bitmap';  // of videos: what is drawn best now, 'bitmap' or 'planes'
     try {
       this.#worker = new Worker('decode_worker.js', {type: 'module'});
       this.#worker.onmessage = ({data}) => this.#finish(data);
@@ -106,8 +105,7 @@ export class Decoder {
     this.#decoding = atlas;
     atlas.decodeStarted_ms = performance.now();
     const {blob, pictures, packedDepth, header} = atlas;
-    const job = {blob, pictures, packedDepth, bands: header.depth_bands, layout: header.layout,
-      form: this.form};
+    const job = {blob, pictures, packedDepth, bands: header.depth_bands, layout: header.layout};
     if (this.#worker) {
       this.#worker.postMessage(job);
     } else {

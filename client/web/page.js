@@ -39,8 +39,7 @@ import {XrButton} from './xr_button.js';
 const kRetry_ms = 1000;
 const kLook_ms = 100;     // from one look for a picture that stands still to the next
 const kResized_ms = 150;  // a size that stays as long is asked for
-const kWoven = ['panel', 'eye'];
-const kPainted = [...kWoven, 'rgbd'];  // modes that draw by themselves
+const kPainted = ['panel', 'eye', 'rgbd'];  // modes that draw by themselves
 const kSilence = 'The server does not answer. Trying again.';
 
 const byId = (id) => document.getElementById(id);
@@ -77,7 +76,6 @@ const stage = new Stage(byId('stage'), {
     clearTimeout(resizeTimer);
     resizeTimer = setTimeout(ask, kResized_ms);
   },
-  onVideoFailed,
 });
 
 const around = new Around(stage, (message) => stream.send(message), ask);
@@ -189,7 +187,6 @@ const modes = new Modes({
   rgbd: new RgbdMode(stage),
 }, (mode) => {
   if (!kPainted.includes(mode)) stage.painter = null;
-  decoder.form = kWoven.includes(mode) ? 'planes' : 'bitmap';
   seeAsOf(mode);
   shapePicture(stage.layout, mode);
   stage.invalidate();

@@ -23,12 +23,10 @@ export function shownViews({view_count, cone_begin, cone_end}) {
 export class Stage {
   #atlas = null;
   #scheduled = false;
-  #pictures;  // draws them, of either kind
+  #pictures = new VideoCanvas();  // draws them, of either kind
 
-  // onDrawn(atlas); onResize(): its pictures have room for another number of px;
-  // onVideoFailed(reason): video cannot be drawn here
-  constructor(canvas, {onDrawn, onResize, onVideoFailed}) {
-    this.#pictures = new VideoCanvas(onVideoFailed);
+  // onDrawn(atlas); onResize(): its pictures have room for another number of px
+  constructor(canvas, {onDrawn, onResize}) {
     this.canvas = canvas;
     this.onDrawn = onDrawn;
     this.onResize = onResize;

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes atlases whose colour is H.264, by WebCodecs. Runs in the worker of decode_worker.js.
 import {UploadTrial} from './upload_trial.js';
-import {canConvert, VideoConversion} from './video_conversion.js';
 import {VideoPainter} from './video_painter.js';
 import {VideoPlanes} from './video_planes.js';
 
-// Ways to bring pictures to where they are drawn.
-const kWays = {planes: VideoPlanes, conversion: VideoConversion, texImage2D: VideoPainter};
-// Those that are measured, by what is drawn: shaders take planes or a bitmap, a canvas of two
-// dimensions a bitmap. The first one of each is the faster one without a GPU.
-const kChoices = {planes: ['planes', 'texImage2D'], bitmap: ['conversion', 'texImage2D']};
+// Ways to bring pictures to where they are drawn. Both are measured; the first one is the faster
+// one without a GPU.
+const kWays = {planes: VideoPlanes, texImage2D: VideoPainter};
 
 const kPatience_ms = 8000;  // a decoder that gives nothing for as long hangs
 
@@ -69,11 +66,7 @@ function checkSize({visibleRect: {width, height}}, {picture_size}) {
 
 // Decoders in hardware keep other formats than I420, and reading them back is slow.
 function wayFor(frame, trial) {
-  const isInMemory = frame.format === 'I420';
-  const serves = {planes: isInMemory, conversion: isInMemory && canConvert(frame),
-    texImage2D: true};
-  if (serves[trial.next]) return trial.next;
-  trial.ruleOut(trial.next);
+  if (trial.next === 'planes' && frame.format !== 'I420') trial.ruleOut('planes');
   return trial.next;
 }
 
@@ -84,39 +77,37 @@ export class VideoAtlases {
   #timestamp_us = 0;    // of the next picture
   #hardware = 'no-preference';
   #ways = {};           // those that were begun, by name
-  #trials = Object.fromEntries(
-      Object.entries(kChoices).map(([form, names]) => [form, new UploadTrial(names)]));
+  #trial = new UploadTrial(Object.keys(kWays));
 
   // patience_ms: with a decoder that gives no picture
   constructor(patience_ms = kPatience_ms) {
     this.patience_ms = patience_ms;
   }
 
-  // Name of the way that was measured to be the faster one for a form; '' = not yet.
-  uploadOf(form) { return this.#trials[form].kept; }
+  // Name of the way that was measured to be the faster one; '' = not yet.
+  get upload() { return this.#trial.kept; }
 
-  // pictures: access units, Uint8Array each; layout: the AtlasLayout; form: 'planes' or 'bitmap',
-  // what is drawn best. One call at a time.
+  // pictures: access units, Uint8Array each; layout: the AtlasLayout. One call at a time.
   // {bitmap} in the arrangement that the layout says, or {planes} of its stack. If a decoder fails,
   // one without hardware tries the same atlas. Rejects with what is wrong then; the next atlas
   // begins with a new decoder.
-  async decode(pictures, layout, form) {
+  async decode(pictures, layout) {
     try {
-      return await this.#decodeOnce(pictures, layout, form);
+      return await this.#decodeOnce(pictures, layout);
     } catch (error) {
       if (this.#hardware === 'prefer-software') throw error;
       this.#hardware = 'prefer-software';
-      return this.#decodeOnce(pictures, layout, form);
+      return this.#decodeOnce(pictures, layout);
     }
   }
 
-  async #decodeOnce(pictures, layout, form) {
+  async #decodeOnce(pictures, layout) {
     const frames = new FrameQueue(this.patience_ms);
     this.#frames = frames;
     try {
       this.#configure(layout.video);
       this.#feed(pictures, frames);
-      return await this.#collect(frames, layout, this.#trials[form]);
+      return await this.#collect(frames, layout);
     } catch (error) {
       this.close();
       throw error;
@@ -138,7 +129,7 @@ export class VideoAtlases {
   }
 
   // Time until the next frame is the decoder's. All other time is the way's.
-  async #collect(frames, layout, trial) {
+  async #collect(frames, layout) {
     let name = '';
     let way = null;
     let time_ms = 0;
@@ -148,7 +139,7 @@ export class VideoAtlases {
       try {
         checkSize(frame, layout.video);
         if (!way) {
-          name = wayFor(frame, trial);
+          name = wayFor(frame, this.#trial);
           way = this.#ways[name] ??= new kWays[name]();
           way.begin(layout);
         }
@@ -160,7 +151,7 @@ export class VideoAtlases {
     }
     const begun_ms = performance.now();
     const made = await way.finish();
-    trial.note(name, time_ms + performance.now() - begun_ms);
+    this.#trial.note(name, time_ms + performance.now() - begun_ms);
     return made;
   }
 

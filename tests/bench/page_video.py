@@ -131,7 +131,7 @@ def measure(arguments, atlases):
                 for kind, name in (("JPEG", "jpeg"), ("H.264", "video")):
                     paths = json.dumps([f"{name}{index}" for index in range(len(atlases))])
                     measured = browser.evaluate(
-                        f"measure({paths}, {arguments.count}, 'planes')")
+                        f"measure({paths}, {arguments.count})")
                     if number > 0:
                         rounds[kind].append(measured)
             for kind, measured in rounds.items():

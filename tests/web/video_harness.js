@@ -46,8 +46,7 @@ function drawn(atlas, source, width, height) {
   const canvas = new OffscreenCanvas(width, height);
   const context = canvas.getContext('2d', {alpha: false});
   context.imageSmoothingQuality = 'high';
-  new VideoCanvas((reason) => failures.push(reason)).draw(
-      context, atlas, source, [0, 0, width, height]);
+  new VideoCanvas().draw(context, atlas, source, [0, 0, width, height]);
   return base64(new Uint8Array(context.getImageData(0, 0, width, height).data.buffer));
 }
 
@@ -63,21 +62,16 @@ const inWorker = (atlas) => new Promise((resolve) => {
 
 const own = new VideoAtlases();
 
-// Decodes on this thread in a way: the first one for planes, and the first or the second one for a
-// bitmap.
+// Decodes on this thread in a way: planes come first, and bitmaps from texImage2D then.
 async function decodedAs(way, path) {
   const atlases = new VideoAtlases();
-  const form = way === 'planes' ? 'planes' : 'bitmap';
-  const count = way === 'texImage2D' ? 2 : 1;
-  for (let i = 1; i <= count; ++i) {
+  for (;;) {
     const atlas = await messageOf(path);
-    Object.assign(atlas, await atlases.decode(atlas.pictures, atlas.header.layout, form));
-    if (i < count) {
-      atlas.bitmap.close();
-      continue;
+    Object.assign(atlas, await atlases.decode(atlas.pictures, atlas.header.layout));
+    if (way === 'planes' || atlas.bitmap) {
+      atlases.close();
+      return atlas;
     }
-    atlases.close();
-    return atlas;
   }
 }
 
@@ -112,14 +106,13 @@ window.repeat = async (paths, count) => {
   for (let i = 0; i < count; ++i) {
     const atlas = await messageOf(paths[i % paths.length]);
     try {
-      const form = i % 2 ? 'planes' : 'bitmap';
-      (await own.decode(atlas.pictures, atlas.header.layout, form)).bitmap?.close();
+      (await own.decode(atlas.pictures, atlas.header.layout)).bitmap?.close();
     } catch (error) {
       errors.push(error.message);
     }
   }
   await new Promise((resolve) => { setTimeout(resolve, 100); });
-  return {...opened, errors, uploads: [own.uploadOf('planes'), own.uploadOf('bitmap')]};
+  return {...opened, errors, upload: own.upload};
 };
 
 // Decodes on this thread by a decoder that hangs; why it was given up.
@@ -170,8 +163,7 @@ function upload(atlas) {
   return performance.now() - begun_ms;
 }
 
-window.measure = async (paths, count, form) => {
-  decoder.form = form;
+window.measure = async (paths, count) => {
   const times = [];
   for (let i = 0; i < count; ++i) {
     const atlas = await messageOf(paths[i % paths.length]);
