@@ -99,18 +99,6 @@ class AutoDetail(unittest.TestCase):
                      if atlas["time_s"] > 300 and atlas["detail"] == 1)
         self.assertLess(sharp, 302)
 
-    def test_views_around_the_eye_are_fewer_before_they_are_coarser_and_never_narrow(self):
-        steps = self.browser.evaluate(
-            "import('/detail_steps.js').then(({eyeSteps}) => Object.fromEntries([150, 300, 544, "
-            "2000].map(width => [width, eyeSteps([5, 3, 1], width)])))")
-        self.assertEqual(len(steps["150"]), 3)  # narrow as it is
-        for width, of_width in steps.items():
-            self.assertEqual([step["views"] for step in of_width[:3]], [5, 3, 1])
-            self.assertEqual([step["detail"] for step in of_width[:3]], [1, 1, 1])
-            for step in of_width[3:]:
-                self.assertEqual(step["views"], 1)
-                self.assertGreaterEqual(step["detail"] * int(width), 200)
-
     def test_who_moves_again_after_a_pause_gets_back_the_detail_that_moves(self):
         chosen, shown = self.simulate(120, full_ms=1280, pause=[40, 70])
         late = [(time_s, detail) for time_s, detail in chosen if time_s > 30]
