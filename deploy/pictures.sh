@@ -11,7 +11,7 @@ Makes the pictures of the documents anew: deploy/*.jpg.
 Usage: deploy/pictures.sh [BUILD]
 
 BUILD is the build folder (default build/release). It needs viewloomd and viewloom, and for the
-pictures beside the truth also viewloom-bench.
+pictures beside the truth also viewloom-bench. The picture of the viewer page needs Chromium.
 TEXT
   [[ "${1:-}" == --help || "${1:-}" == -h ]]
   exit
@@ -30,6 +30,11 @@ done
 /usr/bin/python3 deploy/readme_picture.py "${programs[@]}" deploy/three_views.jpg
 /usr/bin/python3 deploy/display_pictures.py "${programs[@]}" deploy/displays.jpg
 /usr/bin/python3 deploy/reflection_pictures.py "${programs[@]}" deploy/reflections.jpg
+if [[ -x /usr/bin/chromium ]]; then
+  /usr/bin/python3 deploy/page_picture.py "${programs[@]}" deploy/page.jpg
+else
+  echo "pictures: there is no /usr/bin/chromium, so the picture of the page stays as it is"
+fi
 if [[ -x "$bench" ]]; then
   /usr/bin/python3 deploy/application_pictures.py "$bench" deploy
 else

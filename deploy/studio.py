@@ -20,7 +20,8 @@ class Studio:
         self.server = subprocess.Popen(
             [arguments.viewloomd, "serve", "--http.address", "127.0.0.1:0", "--grpc.address",
              "127.0.0.1:0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
-        self.address = re.search(r"grpc=(\S+)", self.server.stdout.readline()).group(1)
+        line = self.server.stdout.readline()
+        self.address, self.page = re.search(r"grpc=(\S+) http=(\S+)", line).groups()
         self.publishers = []
 
     def publish(self, stream, *what):
