@@ -10,6 +10,7 @@
 #include "scoring/psnr.h"
 #include "video/annex_b.h"
 #include "video/h264_parameters.h"
+#include "video/video_encoder.h"
 
 namespace viewloom::test::service_video_test {
 namespace {
@@ -59,9 +60,9 @@ class ServiceVideoTest : public ServiceFixture {
   }
 };
 
-// Fine quantisation leaves what 4:2:0 takes, and rounding.
-constexpr uint32_t kFineQp = 8;
-constexpr double kFineDb = 33;
+// The finest quantisation leaves little but what 4:2:0 takes, and rounding.
+constexpr uint32_t kFineQp = kVideoQpMin;
+constexpr double kFineDb = 32;
 
 TEST_F(ServiceVideoTest, showsTheSameViewsInTheSameLayout) {
   v1::OpenDisplay grid = openScene();
