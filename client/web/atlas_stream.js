@@ -192,6 +192,7 @@ export class AtlasStream {
       this.#giveUp(this.#refusal);
       return;
     }
+    if (code === kRefused && this.#refusal) reason = this.#refusal.message;
     if (!opened) {
       const signal = AbortSignal.timeout(kConnect_ms);
       const refusal = await fetch(askedPath(this.asked), {signal})

@@ -22,7 +22,8 @@ export function takeBack(text) {
 
 // The connection is lost, for a reason, and comes back by itself.
 export function noticeWaiting(reason) {
-  waiting = `${reason} Trying again.`;
+  const sentence = /[.!?]$/.test(reason) ? reason : `${reason}.`;
+  waiting = `${sentence} Trying again.`;
   notice(waiting, 'bad', Infinity);
 }
 

@@ -4,6 +4,7 @@ Screenshots are kept in the folder VIEWLOOM_SCREENSHOTS, when that is set."""
 import math
 import os
 import re
+import socket
 import time
 import unittest
 
@@ -245,6 +246,17 @@ class LookAround(unittest.TestCase):
         self.assertFalse(self.browser.evaluate(is_on % "auto"))
         self.assertFalse(self.browser.evaluate(is_on % "off"))
         self.assertTrue(self.browser.evaluate(is_on % "on"))
+
+    def test_a_limit_of_the_server_is_named_until_there_is_room(self):
+        self.start()
+        self.server.refusals["STEREO_LAYOUT_SINGLE"] = {
+            "code": "RESOURCE_EXHAUSTED", "field": "",
+            "message": "too many distinct displays; raise limits.displays_max"}
+        self.server.viewers[-1].connection.connection.shutdown(socket.SHUT_RDWR)
+        notice = "document.getElementById('notice').textContent"
+        self.browser.wait_for(f"{notice}.includes('raise limits.displays_max. Trying again.')")
+        self.server.refusals.clear()
+        self.browser.wait_for(f"{LIVE} && {notice} === ''")
 
     def test_an_eye_without_a_place_is_never_sent(self):
         self.start()

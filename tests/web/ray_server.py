@@ -213,9 +213,9 @@ class Handler(http.server.BaseHTTPRequestHandler):
         display = json.loads(parameters["display"])
         encoding = json.loads(parameters.get("encoding", "{}"))
         self.server.displays.append(display)
-        is_one = display["stereo"].get("layout") == "STEREO_LAYOUT_SINGLE"
-        if self.server.refusal_of_pairs is not None and not is_one:
-            self.send_frame(1, json.dumps({"error": self.server.refusal_of_pairs}).encode())
+        refusal = self.server.refusals.get(display["stereo"].get("layout"))
+        if refusal is not None:
+            self.send_frame(1, json.dumps({"error": refusal}).encode())
             self.send_frame(8, struct.pack("!H", REFUSED))
             self.close_connection = True
             return
@@ -259,7 +259,7 @@ class RayServer(http.server.ThreadingHTTPServer):
         self.delay_s, self.folders = delay_s, folders
         self.poses, self.displays, self.presented = [], [], []  # as they came
         self.viewers = []  # one a connection
-        self.refusal_of_pairs = None  # {code, field, message} of an error
+        self.refusals = {}  # {code, field, message} of an error, by layout
         self.url = f"http://127.0.0.1:{self.server_address[1]}/"
         threading.Thread(target=self.serve_forever, daemon=True).start()
 
