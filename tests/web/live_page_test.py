@@ -15,9 +15,11 @@ import unittest
 from PIL import Image, ImageChops, ImageStat
 
 from page_test import LIVE, PageTest, keep
+from ray_server import RayServer
 from web_client import TIMEOUT_S, WebSocket, asked, fetch, quilt
 
 SERVER, CLIENT = sys.argv.pop(1), sys.argv.pop(1)
+EXAMPLES = os.path.join(os.path.dirname(__file__), "..", "..", "client", "examples")
 QUILT = quilt(6, 2, 722, 323, aspect=0.75)
 DISPLAY = asked(QUILT, stream="scene")
 COLUMNS, ROWS, TILE = 6, 2, (120, 161)  # of DISPLAY; 2 px at the right and 1 at the top are padding
@@ -32,10 +34,10 @@ def end(process):
 
 
 class LiveServer:
-    def __init__(self, http_port=0, grpc_port=0):
+    def __init__(self, http_port=0, grpc_port=0, options=()):
         self.process = subprocess.Popen(
             [SERVER, "serve", "--http.address", f"127.0.0.1:{http_port}", "--grpc.address",
-             f"127.0.0.1:{grpc_port}"], stdout=subprocess.PIPE, text=True)
+             f"127.0.0.1:{grpc_port}", *options], stdout=subprocess.PIPE, text=True)
         addresses = re.search(r"grpc=\S+:(\d+) http=(\S+:(\d+)/)", self.process.stdout.readline())
         self.grpc_port, self.url, self.port = addresses.groups()
         self.port = int(self.port)
@@ -122,6 +124,28 @@ class LivePage(PageTest):
         for share in (0.03, 0.4, 0.97):
             tiles = self.wait_for_view(self.look(share))
         self.assertGreater(difference(tiles[0], tiles[-1]), difference(tiles[0], tiles[1]))
+
+    def test_the_example_looks_around_from_a_page_of_an_allowed_origin(self):
+        pages = RayServer(folders=(EXAMPLES,))
+        self.addCleanup(pages.close)
+        self.publisher.stop()
+        self.server.stop()
+        self.server = LiveServer(options=("--http.allowed_origins", pages.url.rstrip("/")))
+        self.publisher = self.publish("--seconds", "0.3", "--hold")
+        self.wait_for_stream()
+        self.browser.open(f"{pages.url}look_around.html?stream=scene"
+                          f"&server=127.0.0.1:{self.server.port}")
+        self.browser.wait_for("document.readyState === 'complete' && socket.readyState === 1")
+        left, top, width, height = self.browser.evaluate(
+            "(r => [r.x, r.y, r.width, r.height])(canvas.getBoundingClientRect())")
+        shots = []
+        for share in (0.3, 0.7):
+            self.browser.evaluate("document.title = ''")
+            self.browser.mouse(left + share * width, top + height / 2)
+            self.browser.wait_for("document.title.startsWith('motion to picture: ')")
+            shots.append(self.browser.screenshot().crop((left, top, left + width, top + height)))
+        self.assertGreater(difference(*shots), 2, "another place shows another picture")
+        self.assertEqual(self.browser.messages, [])
 
     def test_a_quilt_of_video_looks_as_one_of_jpeg(self):
         self.publisher.stop()
