@@ -1,51 +1,37 @@
 # SPDX-License-Identifier: Apache-2.0
-"""fuzz_step.py FOLDER TARGET SOURCE SECONDS: searches a target for a while, unless it was searched
-enough: 10 million executions, or 2 hours of CPU time. Says how far it has come.
+"""fuzz_step.py BUILD KEPT TARGET SECONDS: searches a target until it was searched enough: 10
+million executions, or 2 hours of CPU time. Says every SECONDS how far it has come, and keeps it.
 
-FOLDER is that of the build. The corpus grows in FOLDER/corpus/TARGET. The progress for one state of
-the sources, named SOURCE, is kept in FOLDER/progress/TARGET.json.
+BUILD is the folder of the build. The corpus grows in KEPT/corpus/TARGET, the progress is in
+KEPT/progress/TARGET.json, and an input that failed comes to KEPT/failed. All processors search the
+same corpus.
 """
 
-import json
+import os
 import pathlib
 import re
 import resource
 import subprocess
 import sys
+import tempfile
 
-EXECUTIONS = 10_000_000
-CPU_S = 2 * 3600
+from fuzz_record import FuzzRecord, Searched
+from fuzz_sources import FuzzSources
+
+ROOT = pathlib.Path(__file__).parents[2]
 # Longer inputs find little more, and take long.
 BYTES_MAX = 16384
+OPTIONS = ["-timeout=30", "-rss_limit_mb=4096", f"-max_len={BYTES_MAX}", "-print_final_stats=1",
+           # For each feature of an input, that schedule looks through all rare features: two
+           # thirds of the time of `calls`, half of that of `frame`.
+           "-entropic=0",
+           # Starts a program that reads all symbols, for names that nobody sees here.
+           "-print_funcs=0"]
+# Freed memory that waits longer misses the caches; 16 MB are that of several executions. A call
+# stack of each allocation costs more the longer it is. Whoever runs a failed input by hand gets
+# whole ones.
+SANITIZERS = {"ASAN_OPTIONS": "quarantine_size_mb=16:malloc_context_size=5"}
 STATISTIC = re.compile(rb"^stat::number_of_executed_units:\s+(\d+)$", re.MULTILINE)
-
-
-class Progress:
-    """How long the sources were searched, in a file."""
-
-    def __init__(self, file, source):
-        self._file = pathlib.Path(file)
-        self._source = source
-        self.executions, self.cpu_s = 0, 0.0
-        if self._file.exists():
-            kept = json.loads(self._file.read_text())
-            if kept["source"] == source:
-                self.executions, self.cpu_s = kept["executions"], kept["cpu_s"]
-
-    def is_enough(self):
-        return self.executions >= EXECUTIONS or self.cpu_s >= CPU_S
-
-    def add(self, executions, cpu_s):
-        self.executions += executions
-        self.cpu_s += cpu_s
-        self._file.parent.mkdir(parents=True, exist_ok=True)
-        temporary = self._file.with_suffix(".new")
-        temporary.write_text(json.dumps({"source": self._source, "executions": self.executions,
-                                         "cpu_s": round(self.cpu_s, 1)}))
-        temporary.replace(self._file)
-
-    def text(self):
-        return f"{self.executions:,} executions in {self.cpu_s / 60:.0f} CPU minutes"
 
 
 def executed(output):
@@ -54,34 +40,56 @@ def executed(output):
     return int(found[-1]) if found else 0
 
 
-def search(folder, target, seconds):
-    """Executions, CPU seconds and exit status of one search."""
-    corpus = folder / "corpus" / target
-    corpus.mkdir(parents=True, exist_ok=True)
+def run_all(commands, environment):
+    """(status, output on stderr) of each, side by side."""
+    running = []
+    for command in commands:
+        output = tempfile.TemporaryFile()
+        running.append((subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=output,
+                                         env=environment), output))
+    ended = []
+    for process, output in running:
+        status = process.wait()
+        with output:
+            output.seek(0)
+            ended.append((status, output.read()))
+    return ended
+
+
+def search(build, kept, target, seconds):
+    """What was searched, and the first exit status that is not 0."""
+    corpus, failed = kept / "corpus" / target, kept / "failed"
+    for folder in (corpus, failed):
+        folder.mkdir(parents=True, exist_ok=True)
+    command = [build / "tests/fuzz" / f"{target}_fuzzer", f"-max_total_time={seconds}", *OPTIONS,
+               f"-artifact_prefix={failed}/{target}-", corpus]
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    done = subprocess.run(
-        [folder / "tests/fuzz" / f"{target}_fuzzer", f"-max_total_time={seconds}", "-timeout=30",
-         "-rss_limit_mb=4096", f"-max_len={BYTES_MAX}", "-print_final_stats=1",
-         f"-artifact_prefix={folder}/{target}-", corpus],
-        stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False)
+    ended = run_all([command] * os.cpu_count(), {**SANITIZERS, **os.environ})
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    if done.returncode != 0:
-        sys.stderr.buffer.write(done.stderr[-20_000:])
+    for status, output in ended:
+        if status != 0:
+            sys.stderr.buffer.write(output[-20_000:])
+    statuses = [status for status, _ in ended if status != 0]
     cpu_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-    return executed(done.stderr), cpu_s, done.returncode
+    count = sum(executed(output) for _, output in ended)
+    return Searched(count, cpu_s, len(statuses)), statuses[0] if statuses else 0
 
 
 def main(words):
-    folder, target, source, seconds = pathlib.Path(words[0]), words[1], words[2], words[3]
-    progress = Progress(folder / "progress" / f"{target}.json", source)
-    if progress.is_enough():
-        print(f"{target}: searched enough, {progress.text()}")
-        return 0
-    executions, cpu_s, status = search(folder, target, seconds)
-    if status == 0:
-        progress.add(executions, cpu_s)
-        print(f"{target}: {progress.text()}")
-    return status
+    build, kept, target, seconds = pathlib.Path(words[0]), pathlib.Path(words[1]), *words[2:]
+    record, state = FuzzRecord(kept, target), FuzzSources(ROOT).state_of(target)
+    while record.of_state(state).share() < 1:
+        searched, status = search(build, kept, target, seconds)
+        record.add(state, searched)
+        print(f"{target}: {record.of_state(state).text()}", flush=True)
+        if status != 0:
+            return status
+        if searched.executions == 0:
+            print(f"{target}: nothing was executed; look at the output of its fuzzer",
+                  file=sys.stderr)
+            return 1
+    print(f"{target}: searched enough, {record.of_state(state).text()}")
+    return 0
 
 
 if __name__ == "__main__":

@@ -1,17 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """A long run that is stopped goes on where it was, and no part of the checks hides another."""
 
-import os
 import pathlib
-import re
 import signal
 import subprocess
 import sys
 import tempfile
 import unittest
 
-import fuzz_coverage
-import fuzz_step
 import long_run
 import parts
 from long_run import Part, Record, Step
@@ -110,72 +106,6 @@ class LongRun(unittest.TestCase):
         self.assertGreaterEqual(sum(step.covers for step in seeds), 5000)
         first = [int(step.command[-2]) for step in seeds]
         self.assertEqual(len(first), len(set(first)))
-
-
-# A fuzzer that executes 6 million inputs at once.
-FUZZER = """#!/bin/bash
-echo x >> "$0.calls"
-echo 'stat::number_of_executed_units: 6000000' >&2
-exit ${FUZZER_STATUS:-0}
-"""
-
-
-class FuzzStep(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = pathlib.Path(folder.name)
-        self.fuzzer = self.folder / "tests/fuzz/zstd_fuzzer"
-        self.fuzzer.parent.mkdir(parents=True)
-        self.fuzzer.write_text(FUZZER)
-        self.fuzzer.chmod(0o755)
-
-    def step(self, source="now", **environment):
-        return subprocess.run(
-            [sys.executable, "-B", FOLDER / "fuzz_step.py", self.folder, "zstd", source, "1"],
-            check=False, capture_output=True, text=True, env={**os.environ, **environment})
-
-    def calls(self):
-        return self.fuzzer.with_name("zstd_fuzzer.calls").read_text().count("x")
-
-    def test_a_target_is_searched_until_it_is_enough(self):
-        self.assertIn("zstd: 6,000,000 executions in", self.step().stdout)
-        self.assertIn("zstd: 12,000,000 executions in", self.step().stdout)
-        self.assertIn("searched enough, 12,000,000 executions", self.step().stdout)
-        self.assertEqual(self.calls(), 2)
-
-    def test_other_sources_are_searched_anew(self):
-        self.step()
-        self.step()
-        self.assertIn("zstd: 6,000,000 executions in", self.step(source="later").stdout)
-
-    def test_a_crash_is_no_progress(self):
-        crashed = self.step(FUZZER_STATUS="77")
-        self.assertEqual(crashed.returncode, 77)
-        self.assertIn("stat::", crashed.stderr)
-        self.assertIn("zstd: 6,000,000 executions in", self.step().stdout)
-
-    def test_executions_are_those_of_the_last_search(self):
-        self.assertEqual(fuzz_step.executed(b"stat::number_of_executed_units:  17\n"), 17)
-        self.assertEqual(fuzz_step.executed(b"no statistics"), 0)
-
-
-class FuzzCoverage(unittest.TestCase):
-    def test_every_reader_exists(self):
-        for pattern in fuzz_coverage.READERS.pattern.split("\n  |"):
-            head, _, names = pattern.strip().partition("(")
-            folder = FOLDER.parents[1] / head.rpartition("/")[0].strip("/")
-            self.assertTrue(folder.is_dir(), folder)
-            for name in re.findall(r"[a-z_]+", names.partition(")")[0]):
-                self.assertTrue(any(name in file.name for file in folder.glob("*.cpp")), name)
-
-    def test_the_least_covered_file_comes_first(self):
-        def file(name, covered):
-            return {"filename": name, "summary": {"lines": {"covered": covered, "count": 10}}}
-        url, other, policy = (f"/x/server/web/{name}.cpp"
-                              for name in ("url", "routes", "host_policy"))
-        report = {"data": [{"files": [file(url, 9), file(other, 0), file(policy, 8)]}]}
-        self.assertEqual(fuzz_coverage.shares(report), [(policy, 8, 10), (url, 9, 10)])
 
 
 if __name__ == "__main__":

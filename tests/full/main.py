@@ -1,10 +1,14 @@
 # SPDX-License-Identifier: Apache-2.0
-"""tests/full.sh [--list | PART...]: the parts that are named, or all that have not passed."""
+"""tests/full.sh [--list | --fuzz | PART...]: the parts that are named, or all that have not passed.
+--fuzz says how far the search of each fuzz target has come.
+"""
 
 import sys
 
+import fuzz_record
 import long_run
-from parts import PARTS
+from fuzz_sources import FuzzSources
+from parts import FUZZ_KEPT, PARTS
 
 RECORD = "build/full/passed.json"
 
@@ -14,6 +18,11 @@ def main(words):
     if words == ["--list"]:
         for part in PARTS:
             print(f"{part.name:14} {long_run.covered(part, record):26} {part.text}")
+        return 0
+    if words == ["--fuzz"]:
+        sources = FuzzSources(".")
+        states = {target: sources.state_of(target) for target in sources.targets()}
+        print(*fuzz_record.summary(FUZZ_KEPT, states), sep="\n")
         return 0
     names = {part.name for part in PARTS}
     unknown = [word for word in words if word not in names]

@@ -8,14 +8,17 @@ import re
 import subprocess
 import sys
 
-from long_run import Part, Step, source_of
+from fuzz_record import CPU_S, EXECUTIONS
+from fuzz_sources import FuzzSources
+from long_run import Part, Step
 
 JOBS = str(os.cpu_count())
-TARGETS = pathlib.Path(__file__).parents[1] / "fuzz/fuzz_targets.cpp"
-FUZZERS = re.findall(r'^ +FuzzTarget\{"([a-z_]+)"', TARGETS.read_text(), re.MULTILINE)
-# Enough for two hours of CPU time where others use the machine, too. Once a target was searched
-# enough, its other steps pass at once.
-FUZZ_STEP_S, FUZZ_STEPS = 60, 150
+ROOT = pathlib.Path(__file__).parents[2]
+FUZZERS = FuzzSources(ROOT).targets()
+# Corpora, and how far the search has come. A folder that outlives the build keeps them.
+FUZZ_KEPT = os.environ.get("VIEWLOOM_FUZZ_KEPT", "build/fuzz")
+# How often a search keeps how far it has come.
+FUZZ_SLICE_S = 120
 # Beyond those of the suite. A seed of several sources takes longer than one of a single source.
 SOAKS = {"walk": ([], 200, 40), "sweep": (["sweep"], 2000, 20), "cube": (["cube"], 100, 20),
          "sources": (["sources"], 100, 20), "beside": (["beside"], 100, 20)}
@@ -49,15 +52,16 @@ def each_ctest(preset, label):
 
 
 def fuzz(name):
-    folder = "build/fuzz"
-    seeds = Step("seeds", [f"{folder}/tests/fuzz/write_seeds", name, f"{folder}/corpus/{name}"])
+    """One step: what it has covered is kept by itself, whatever else of the sources changes."""
+    seeds = Step("seeds", ["build/fuzz/tests/fuzz/write_seeds", name, f"{FUZZ_KEPT}/corpus/{name}"])
 
     def steps():
-        command = [sys.executable, "tests/full/fuzz_step.py", folder, name, source_of("."),
-                   str(FUZZ_STEP_S)]
-        return [Step(f"minute {i + 1}", command, FUZZ_STEP_S) for i in range(FUZZ_STEPS)]
-    return Part(f"fuzz-{name}", "libFuzzer: 10 million executions or 2 CPU hours; keeps the corpus",
-                "s", steps, build("fuzz", "fuzzers") + [seeds])
+        return [Step(f"search of {FuzzSources(ROOT).state_of(name)}",
+                     [sys.executable, "tests/full/fuzz_step.py", "build/fuzz", FUZZ_KEPT, name,
+                      str(FUZZ_SLICE_S)])]
+    return Part(f"fuzz-{name}", f"libFuzzer: {EXECUTIONS // 1_000_000} million executions or "
+                f"{CPU_S // 3600} CPU hours; keeps the corpus", "searches", steps,
+                build("fuzz", "fuzzers") + [seeds])
 
 
 def soak(name):
@@ -161,7 +165,7 @@ PARTS = [
     *map(fuzz, FUZZERS),
     Part("fuzz-coverage", "lines of parsers and checks that the corpora reach; after the others",
          "runs", lambda: [Step("all corpora", [sys.executable, "tests/full/fuzz_coverage.py",
-                                               "build/fuzz-coverage", "build/fuzz/corpus"])],
+                                               "build/fuzz-coverage", f"{FUZZ_KEPT}/corpus"])],
          build("fuzz-coverage", "fuzzers")),
     *map(soak, SOAKS),
     Part("lint", "clang-tidy over server and client", "runs",

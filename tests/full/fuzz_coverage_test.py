@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Lines of parsers and checks are counted, and those of nothing else."""
+
+import pathlib
+import re
+import unittest
+
+import fuzz_coverage
+
+FOLDER = pathlib.Path(__file__).parent
+
+
+class FuzzCoverage(unittest.TestCase):
+    def test_every_reader_exists(self):
+        for pattern in fuzz_coverage.READERS.pattern.split("\n  |"):
+            head, _, names = pattern.strip().partition("(")
+            folder = FOLDER.parents[1] / head.rpartition("/")[0].strip("/")
+            self.assertTrue(folder.is_dir(), folder)
+            for name in re.findall(r"[a-z_]+", names.partition(")")[0]):
+                self.assertTrue(any(name in file.name for file in folder.glob("*.cpp")), name)
+
+    def test_the_least_covered_file_comes_first(self):
+        def file(name, covered):
+            return {"filename": name, "summary": {"lines": {"covered": covered, "count": 10}}}
+        url, other, policy = (f"/x/server/web/{name}.cpp"
+                              for name in ("url", "routes", "host_policy"))
+        report = {"data": [{"files": [file(url, 9), file(other, 0), file(policy, 8)]}]}
+        self.assertEqual(fuzz_coverage.shares(report), [(policy, 8, 10), (url, 9, 10)])
+
+
+if __name__ == "__main__":
+    unittest.main()
