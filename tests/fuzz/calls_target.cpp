@@ -8,10 +8,10 @@
 #include "access/access_control.h"
 #include "base/check.h"
 #include "base/clock.h"
-#include "decode/frame_intake.h"
 #include "e2e/answering_sink.h"
 #include "fuzz/script.h"
 #include "fuzz/scripted_stream.h"
+#include "fuzz/shared_intake.h"
 #include "fuzz/targets.h"
 #include "lib/atlas_assembler.h"
 #include "messages/wire_message.h"
@@ -36,13 +36,27 @@ enum class Step : uint8_t {
   kTick,
   kPublish,  // opens a call
   kWatch,
+  kHold,  // from now on, frames wait to be decoded
+  kLetGo,
   kCount
 };
+
+// Metrics take long to make.
+const Metrics& metrics() {
+  static const Metrics shared;
+  return shared;
+}
+
+SharedIntake& sharedIntake() {
+  static SharedIntake shared;
+  return shared;
+}
 
 // The server's side of the calls, without an engine: the sink answers frames with known bytes.
 class World {
  public:
   World() {
+    sharedIntake().serve(&sink_);
     broadcaster_.onDemandChange([this](const std::string& stream) {
       sink_.demandChanged(stream);
       for (const auto& weak : publishers_) {
@@ -51,14 +65,14 @@ class World {
     });
   }
   ~World() {
-    intake_.close();
+    sharedIntake().serve(nullptr);
     broadcaster_.drain();
   }
 
   std::shared_ptr<PublishCall> publish() {
     auto call = std::make_shared<PublishCall>(
-        IngestParts{.intake = intake_,
-                    .pool = pool_,
+        IngestParts{.intake = sharedIntake().intake(),
+                    .pool = sharedIntake().pool(),
                     .directory = directory_,
                     .broadcaster = broadcaster_,
                     .clock = clock_,
@@ -80,6 +94,10 @@ class World {
   }
 
   void advance() { clock_.advance(kTickNs); }
+  void hold() { sharedIntake().hold(); }
+  void letGo() { sharedIntake().letGo(); }
+  // A script always ends the same: reports, which come on other threads, are waited for.
+  void settle() { sharedIntake().settle(static_cast<uint64_t>(metrics().frames_received.value())); }
   bool hasLiveStream() const {
     for (const StreamEntry& entry : directory_.list()) {
       if (entry.live) return true;
@@ -87,22 +105,13 @@ class World {
     return false;
   }
   bool hasDisplay() const { return !broadcaster_.displays("").empty(); }
-  void close() { intake_.close(); }
 
  private:
-  // Metrics take long to make.
-  static const Metrics& metrics() {
-    static const Metrics shared;
-    return shared;
-  }
-
   ManualClock clock_;
   AccessControl access_{clock_};
-  BytePool pool_{8};
   StreamDirectory directory_{clock_, 2};
   Broadcaster broadcaster_{{.display_count_max = 2, .subscriber_count_max = 3}};
   AnsweringSink sink_{directory_, broadcaster_};
-  FrameIntake intake_{sink_, clock_, pool_, {}};
   std::vector<std::weak_ptr<PublishCall>> publishers_;
 };
 
@@ -197,6 +206,25 @@ void openCall(Step step, World& world, std::vector<std::unique_ptr<Client>>& cli
   }
 }
 
+// One step of the script.
+void act(Step step, Script& script, World& world, std::vector<std::unique_ptr<Client>>& clients) {
+  switch (step) {
+    case Step::kPublish:
+    case Step::kWatch:
+      return openCall(step, world, clients);
+    case Step::kHold:
+      return world.hold();
+    case Step::kLetGo:
+      return world.letGo();
+    case Step::kTick:
+      world.advance();
+      break;
+    default:
+      break;
+  }
+  if (!clients.empty()) clients[script.take() % clients.size()]->act(step, script);
+}
+
 }  // namespace
 
 bool fuzzCalls(FuzzBytes bytes) {
@@ -204,17 +232,13 @@ bool fuzzCalls(FuzzBytes bytes) {
   World world;
   std::vector<std::unique_ptr<Client>> clients;
   for (int step = 0; step < kStepCountMax && !script.atEnd(); ++step) {
-    const auto kind = static_cast<Step>(script.take() % static_cast<uint32_t>(Step::kCount));
-    if (kind == Step::kPublish || kind == Step::kWatch) {
-      openCall(kind, world, clients);
-      continue;
-    }
-    if (kind == Step::kTick) world.advance();
-    if (clients.empty()) continue;
-    clients[script.take() % clients.size()]->act(kind, script);
+    act(static_cast<Step>(script.take() % static_cast<uint32_t>(Step::kCount)), script, world,
+        clients);
+    world.settle();
   }
+  world.letGo();
+  world.settle();
   bool is_answered = false;
-  world.close();  // reports come on other threads
   for (const auto& client : clients) {
     is_answered |= client->gotSomething();
     client->breakOff();

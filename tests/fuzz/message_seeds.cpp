@@ -15,7 +15,7 @@ using Message = google::protobuf::MessageLite;
 
 // Steps of calls_target.cpp.
 constexpr uint8_t kSend = 0, kWritten = 1, kHalfClose = 2, kCancel = 3, kTick = 5, kPublish = 6,
-                  kWatch = 7;
+                  kWatch = 7, kHold = 8, kLetGo = 9;
 
 v1::Plane& addPlane(v1::Layer& layer, v1::PlaneKind kind, v1::PlaneEncoding encoding,
                     uint32_t pixel_bytes) {
@@ -201,6 +201,18 @@ std::vector<uint8_t> trackedStream() {
   return script.bytes({kWritten, 0, kWritten, 1, kWritten, 2, kCancel, 2, kWritten, 0}).done();
 }
 
+// Frames wait for so long that the second is received and replaces the first.
+std::vector<uint8_t> heldStream() {
+  SeedWriter script;
+  beginPublishing(script, 0);
+  script.bytes({kWritten, 0, kHold});
+  for (const auto& message : publishedFrame(1)) send(script, 0, message);
+  for (int i = 0; i < 5; ++i) script.bytes({kTick, 0});
+  for (const auto& message : publishedFrame(2)) send(script, 0, message);
+  script.bytes({kWritten, 0, kLetGo});
+  return script.bytes({kWritten, 0, kWritten, 0, kHalfClose, 0, kWritten, 0}).done();
+}
+
 }  // namespace
 
 SeedBytes headerSeeds() {
@@ -239,7 +251,7 @@ SeedBytes chunkSeeds() {
 }
 
 SeedBytes callSeeds() {
-  return {watchedStream(), trackedStream()};
+  return {watchedStream(), trackedStream(), heldStream()};
 }
 
 SeedBytes atlasSeeds() {
