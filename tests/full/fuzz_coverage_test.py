@@ -6,6 +6,7 @@ import re
 import unittest
 
 import fuzz_coverage
+from fuzz_sources import FuzzSources
 
 FOLDER = pathlib.Path(__file__).parent
 
@@ -18,6 +19,17 @@ class FuzzCoverage(unittest.TestCase):
             self.assertTrue(folder.is_dir(), folder)
             for name in re.findall(r"[a-z_]+", names.partition(")")[0]):
                 self.assertTrue(any(name in file.name for file in folder.glob("*.cpp")), name)
+
+    def test_each_source_of_a_target_is_a_reader_or_none(self):
+        paths = fuzz_coverage.built(FuzzSources(FOLDER.parents[1]))
+        self.assertEqual(fuzz_coverage.undecided(paths), [])
+        self.assertEqual(fuzz_coverage.undecided(["server/web/url.cpp", "server/web/new.cpp"]),
+                         ["server/web/new.cpp"])
+
+    def test_a_reader_that_is_not_counted_is_found(self):
+        paths = ["server/web/url.cpp", "server/web/host_policy.cpp", "server/core/base/check.cpp"]
+        self.assertEqual(fuzz_coverage.missing(paths, [("/x/server/web/url.cpp", 1, 1)]),
+                         ["server/web/host_policy.cpp"])
 
     def test_the_least_covered_file_comes_first(self):
         def file(name, covered):
