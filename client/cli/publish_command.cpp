@@ -113,9 +113,10 @@ void addEncodingOptions(const usage::Command& app, PublishRunOptions& run) {
   app.add("--color-encoding", run.color_encoding,
           "How colour is sent\n"
           "plain      unchanged\n"
-          "video      as H.264, in a twentieth of the bytes or less, with small errors\n"
-          "auto       plain to a server on this machine, and of replays and patterns; else video\n"
-          "           for pictures of at least 256x256 px")
+          "video      as H.264, in a twentieth of the bytes or less;\n"
+          "           errors are small\n"
+          "auto       plain to a server on this machine, and for replays and\n"
+          "           patterns; else video for pictures of at least 256x256 px")
       .oneOf({"auto", "plain", "video"})
       .showDefault()
       .group(group);
