@@ -20,6 +20,7 @@ MIB = 1 << 20
 WARM_UP_S = 180
 QUIET_SHARE = 0.1  # of one core: the warm-up is over
 ALONE_S = 3.0
+LOAD_USED_S = 3.0
 FIRST_SHARE = 0.2  # of the time with eight clients, until all have begun
 # Some 8 times the engine time of its share, at 10 Hz.
 SECOND = loads.quilt(4096)
@@ -84,6 +85,13 @@ class Scene:
             session.watch_in_turn(requests).join()
             print(f"every kind once: {session.atlases()} pictures, refused "
                   f"{session.refusals() or 'nothing'}", flush=True)
+
+    def use_every_load(self):
+        """Each for a moment: some ask for kernels of their own, which stay."""
+        for load in loads.EIGHT:
+            with Session(self.address, self.tokens[0], "every-load") as session:
+                load(session)
+                time.sleep(LOAD_USED_S)
 
     def row(self, name, its_loads, its_budget, during=time.sleep):
         """Each load has an identity of its own. during: waits for so many seconds."""
@@ -186,6 +194,7 @@ def run(program, its_form):
                 row = scene.row(load.__name__, [load], its_form.client)
                 tell(verdicts.judged_beside(row, limits))
             scene.use_every_kind()
+            scene.use_every_load()
         time.sleep(its_form.settle_s)
         rest_mib, before = scene.memory_mib("VmRSS"), scene.metrics()
         for load in loads.SINGLE if its_form.is_long else loads.SINGLE_SHORT:
