@@ -56,7 +56,7 @@ class Session : public testing::Test {
     access_.emplace(AccessOptions{.token_file = path_}, clock_);
     const auto healthy = [] { return absl::OkStatus(); };
     context_.emplace(HttpOptions{}, HostPolicy({}, {}, {}), healthy, streams_, broadcaster_, eyes_,
-                     metrics_, clock_, *access_, unboundedMemory());
+                     metrics_, clock_, *access_, unboundedMemory(), shares_);
     for (const char* name : {"room.1", "hall"}) claims_.push_back(*streams_.claim(name, "", [] {}));
   }
   ~Session() override { std::filesystem::remove(path_); }
@@ -91,6 +91,7 @@ class Session : public testing::Test {
   StreamDirectory streams_{clock_, 4};
   Broadcaster broadcaster_{BroadcasterLimits{}};
   NoEyes eyes_;
+  FairShares shares_;
   std::optional<AccessControl> access_;
   std::optional<WebContext> context_;
   std::vector<std::unique_ptr<StreamDirectory::Claim>> claims_;
