@@ -112,6 +112,36 @@ TEST(CompactDepth, packsPlanesIntoLittleAndEdgesExactly) {
   EXPECT_LT(packed->size(), 640U * 64 * 2 / 8) << "two bits a sample";
 }
 
+// Balls of all sizes before a bumpy ground and a far wall.
+double someScene(uint32_t x, uint32_t y) {
+  const double u = x / 1280.0;
+  const double v = y / 720.0;
+  const double bumps = 0.002 * std::sin(90 * u) * std::sin(70 * v * v);
+  double inv_z = std::max(0.05, 0.6 * (v - 0.35) + bumps);
+  for (int ball = 0; ball < 24; ++ball) {
+    const double radius = 0.02 + 0.004 * ball;
+    const double du = u - std::fmod(0.37 * ball, 1);
+    const double dv = (v - std::fmod(0.61 * ball, 1)) * 720 / 1280;
+    const double rest = radius * radius - du * du - dv * dv;
+    if (rest > 0) inv_z = std::max(inv_z, 0.1 + 0.03 * ball + 0.5 * std::sqrt(rest));
+  }
+  return inv_z;
+}
+
+TEST(CompactDepth, takesLessThanTenMegabitsASecondFor720Lines) {
+  constexpr double kRate_hz = 20;
+  constexpr uint32_t kBandRows = 128;
+  BytePool pool(4);
+  CompactDepthEncoder encoder(pool);
+  size_t bytes = 0;
+  for (uint32_t first = 0; first < 720; first += kBandRows) {
+    const Depth band = depthOf(1280, std::min(kBandRows, 720 - first),
+                               [&](uint32_t x, uint32_t y) { return someScene(x, first + y); });
+    bytes += pack(encoder, band)->size();
+  }
+  EXPECT_LT(8 * kRate_hz * double(bytes), 10e6);
+}
+
 TEST(CompactDepth, isTheSameForTheSameBandWhateverCameBefore) {
   BytePool pool(4);
   CompactDepthEncoder used(pool);
