@@ -10,8 +10,8 @@ namespace viewloom::cli {
 void addVideoEncoderOption(const usage::Command& app, std::string& encoder) {
   app.add("--video-encoder", encoder,
           "Encoder of a video; a wrong name lists those of this program\n"
-          "auto   one that takes large quilts unscaled, if this program has one that works here;\n"
-          "       else openh264")
+          "auto   one that takes large quilts unscaled, if this program has one\n"
+          "       that works here; else openh264")
       .valueName("NAME")
       .showDefault();
 }

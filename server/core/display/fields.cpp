@@ -42,7 +42,7 @@ absl::Status checkCount(size_t count, const Range& counts, const std::string& fi
   if (accepts(counts, double(count))) return absl::OkStatus();
   const std::string some =
       counts.min == counts.max ? strCat(counts.min) : strCat(counts.min, "..", counts.max);
-  const bool is_none_apart = counts.accepts_zero && counts.min > 0;
+  const bool is_none_apart = counts.accepts_zero && counts.min > 1;
   return invalidField(field, strCat("got ", count, " entries; accepted is ",
                                     is_none_apart ? "none or " : "", some));
 }
