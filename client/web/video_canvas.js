@@ -5,12 +5,16 @@ import {tileOrigin} from './tile_origin.js';
 import {cellOrigin, planeSizes} from './video_planes.js';
 
 const kShrinkMax = 8;
+// How much smaller than seen a picture may be made, as a logarithm to base 2: a fifth on each side.
+const kBlur = 0.25;
 
-// Whole px that become one: a power of two, so that the picture stays as large as it is seen.
+// Whole px that become one, to each side: a power of two.
 function shrinkOf([, , width, height], [, , target_width, target_height], tile_size) {
-  const wanted = Math.min(width / target_width, height / target_height, kShrinkMax,
-      tile_size.width, tile_size.height);
-  return 2 ** Math.max(0, Math.floor(Math.log2(wanted)));
+  // No block is larger than a view.
+  const sides = [tile_size.width, tile_size.height].map((px) => 2 ** Math.floor(Math.log2(px)));
+  const wanted = Math.min(width / target_width, height / target_height, kShrinkMax);
+  const shrink = 2 ** Math.max(0, Math.floor(Math.log2(wanted) + kBlur));
+  return Math.min(shrink, ...sides);
 }
 
 // Place of one view: where its px begin in the planes, and in the picture that is made.
@@ -34,39 +38,53 @@ class ViewPlace {
   }
 }
 
-// Sum of side x side samples.
-function blockSum(planes, at, stride, side) {
-  let sum = 0;
-  for (let row = 0; row < side; ++row, at += stride) {
-    for (let column = 0; column < side; ++column) sum += planes[at + column];
+// Adds samples to the sums of blocks, `side` in a row each. begins: of the blocks, from `at` on.
+function addRow(sums, planes, at, begins, side) {
+  for (let block = 0; block < sums.length; ++block) {
+    const begin = at + begins[block];
+    let sum = planes[begin];
+    for (let column = 1; column < side; ++column) sum += planes[begin + column];
+    sums[block] += sum;
   }
-  return sum;
 }
 
-// Writes R, G and B of the view to `pixels`: means of shrink x shrink px, full range, BT.601.
-// Blocks never reach into neighbours.
+// Sums of the blocks of a row, of side x side samples.
+function addBlocks(sums, planes, at, stride, begins, side) {
+  sums.fill(0);
+  for (let row = 0; row < side; ++row) addRow(sums, planes, at + row * stride, begins, side);
+}
+
+// Writes a row of R, G, B and 255: full range, BT.601, in numbers of 16 bits behind the point.
+function writeRow(pixels, to, {luma, cb, cr}, luma_scale, chroma_scale) {
+  for (let column = 0; column < luma.length; ++column, to += 4) {
+    const level = luma[column] * luma_scale + 32768;
+    const blue = cb[column] * chroma_scale - 128;
+    const red = cr[column] * chroma_scale - 128;
+    pixels[to] = level + 91881 * red >> 16;
+    pixels[to + 1] = level - 22554 * blue - 46802 * red >> 16;
+    pixels[to + 2] = level + 116130 * blue >> 16;
+    pixels[to + 3] = 255;
+  }
+}
+
+// Writes the view to `pixels`: means of shrink x shrink px. Blocks never reach into neighbours.
 function convertView(planes, place, shrink, pixels) {
-  const {stride, tile_size, origin} = place;
+  const {stride, tile_size, origin, width} = place;
   const chroma_side = Math.max(1, shrink / 2);
-  const [luma_scale, chroma_scale] = [1 / shrink ** 2, 1 / chroma_side ** 2];
-  let to = 0;
+  const begin = (index, start_px, side_px) =>
+    Math.min(Math.max(index * shrink - start_px, 0), side_px - shrink);
+  const columns = Int32Array.from(
+      {length: width}, (_, column) => begin(place.left + column, origin.x, tile_size.width));
+  const chroma_columns = columns.map((x) => x >> 1);
+  const sums = {luma: new Int32Array(width), cb: new Int32Array(width), cr: new Int32Array(width)};
   for (let row = 0; row < place.height; ++row) {
-    const y = Math.min(Math.max((place.top + row) * shrink - origin.y, 0),
-                       tile_size.height - shrink);
-    const luma_row = place.luma + y * stride;
-    const chroma_row = (y >> 1) * (stride / 2);
-    for (let column = 0; column < place.width; ++column, to += 4) {
-      const x = Math.min(Math.max((place.left + column) * shrink - origin.x, 0),
-                         tile_size.width - shrink);
-      const chroma = chroma_row + (x >> 1);
-      const level = luma_scale * blockSum(planes, luma_row + x, stride, shrink);
-      const blue = chroma_scale * blockSum(planes, place.cb + chroma, stride / 2, chroma_side) -
-          128;
-      const red = chroma_scale * blockSum(planes, place.cr + chroma, stride / 2, chroma_side) - 128;
-      pixels[to] = level + 1.402 * red;
-      pixels[to + 1] = level - 0.344136 * blue - 0.714136 * red;
-      pixels[to + 2] = level + 1.772 * blue;
+    const y = begin(place.top + row, origin.y, tile_size.height);
+    const chroma = (y >> 1) * (stride / 2);
+    addBlocks(sums.luma, planes, place.luma + y * stride, stride, columns, shrink);
+    for (const name of ['cb', 'cr']) {
+      addBlocks(sums[name], planes, place[name] + chroma, stride / 2, chroma_columns, chroma_side);
     }
+    writeRow(pixels, 4 * row * width, sums, 65536 / shrink ** 2, 1 / chroma_side ** 2);
   }
 }
 
@@ -74,7 +92,7 @@ export class VideoCanvas {
   #canvas = new OffscreenCanvas(1, 1);
   // The pixels come from this thread.
   #context = this.#canvas.getContext('2d', {alpha: false, willReadFrequently: true});
-  #image = null;  // of one view
+  #images = new Map();  // of one view, by size: sides differ by a px where tiles end between px
   #drawn = {};    // what the canvas holds: {atlas, part}
 
   // Like context.drawImage. source, target: [x, y, width, height], px.
@@ -99,6 +117,7 @@ export class VideoCanvas {
         [size.width, size.height].map((px) => Math.ceil(px / shrink));
     if (this.#canvas.width !== canvas_width || this.#canvas.height !== canvas_height) {
       Object.assign(this.#canvas, {width: canvas_width, height: canvas_height});
+      this.#images.clear();
     }
     this.#context.fillRect(0, 0, canvas_width, canvas_height);  // where no view is
     for (let view = 0; view < view_count; ++view) {
@@ -112,11 +131,9 @@ export class VideoCanvas {
   #put(planes, place, shrink) {
     const {width, height} = place;
     if (width < 1 || height < 1) return;
-    if (this.#image?.width !== width || this.#image.height !== height) {
-      this.#image = new ImageData(width, height);
-      this.#image.data.fill(255);  // opaque
-    }
-    convertView(planes, place, shrink, this.#image.data);
-    this.#context.putImageData(this.#image, place.left, place.top);
+    const image = this.#images.get(`${width}x${height}`) ?? new ImageData(width, height);
+    this.#images.set(`${width}x${height}`, image);
+    convertView(planes, place, shrink, image.data);
+    this.#context.putImageData(image, place.left, place.top);
   }
 }
