@@ -49,6 +49,12 @@ class DeviceRoom final : public EngineRoom {
     pipeline_.offerFrame(origin, std::move(frame), std::move(report));
   }
   bool wantsFrame(const std::string& stream) override { return pipeline_.wantsFrame(stream); }
+  size_t nextToDecode(const std::vector<FrameOrigin>& waiting) override {
+    return pipeline_.nextToDecode(waiting);
+  }
+  void noteDecoded(const FrameOrigin& origin, int64_t cpu_ns) override {
+    pipeline_.noteDecoded(origin, cpu_ns);
+  }
   void onWanted(std::function<void()> then) override { pipeline_.onWanted(std::move(then)); }
   void noteLost(const std::string& stream) override { pipeline_.noteLost(stream); }
   void forgetStream(const std::string& stream) override { pipeline_.forgetStream(stream); }

@@ -59,7 +59,7 @@ struct FrameIntake::State {
   // A stream is here while a frame of it waits or is open. It is in the queue or has an open frame,
   // never both: that keeps its frames in order.
   std::unordered_map<std::string, LatestMailbox<WaitingFrame>> streams;
-  std::deque<std::string> queue;
+  std::deque<FrameOrigin> queue;
   std::deque<std::shared_ptr<OpenFrame>> open_frames;  // those with a plane nobody has claimed
   size_t large_count = 0;      // planes of large frames in the hands of threads
   size_t large_count_max = 1;  // threads that may have them
@@ -110,18 +110,20 @@ struct FrameIntake::State {
       if (open->claimed_count == open->planes.size()) std::erase(open_frames, open);
       large_count += open->is_large;
       lock.unlock();
+      const int64_t begun_ns = threadTimeNs();
       open->decoded[plane] = unlessThrown([&] {
         if (plane == 0) open->frame.on_taken();
         return decoder.decode(*open->planes[plane], std::move(open->frame.collected.planes[plane]));
       });
       lock.lock();
+      open->spent_ns += threadTimeNs() - begun_ns;
       large_count -= open->is_large;
       if (open->is_large) work.notify_one();
       if (--open->unfinished_count > 0) continue;
       lock.unlock();
       deliverOrTell(*open);
       lock.lock();
-      finish(open->stream);
+      finish(open->origin);
     }
   }
 
@@ -135,35 +137,51 @@ struct FrameIntake::State {
     return nullptr;
   }
 
+  size_t dropFromQueue(const std::string& stream) {
+    return std::erase_if(queue, [&](const FrameOrigin& other) { return other.stream == stream; });
+  }
+
+  // The wanted stream whose turn it is leaves the queue; none = no frame is wanted.
+  std::optional<FrameOrigin> takeNextWanted() {
+    std::vector<FrameOrigin> left(queue.begin(), queue.end());
+    while (!left.empty()) {
+      const auto next = left.begin() + std::ptrdiff_t(sink.nextToDecode(left));
+      if (closed || sink.wantsFrame(next->stream)) {
+        FrameOrigin taken = std::move(*next);
+        dropFromQueue(taken.stream);
+        return taken;
+      }
+      left.erase(next);
+    }
+    return std::nullopt;
+  }
+
   // False: no stream has a frame that is wanted.
   bool openNextFrame(std::unique_lock<std::mutex>& lock) {
-    const auto found = std::ranges::find_if(
-        queue, [this](const std::string& name) { return closed || sink.wantsFrame(name); });
-    if (found == queue.end()) return false;
-    const std::string stream = std::move(*found);
-    queue.erase(found);
-    WaitingFrame waiting = *streams.at(stream).take();
+    const std::optional<FrameOrigin> next_wanted = takeNextWanted();
+    if (!next_wanted) return false;
+    WaitingFrame waiting = *streams.at(next_wanted->stream).take();
     try {
-      const auto open = std::make_shared<OpenFrame>(stream, waiting.collected.format);
+      const auto open = std::make_shared<OpenFrame>(*next_wanted, waiting.collected.format);
       open_frames.push_back(open);
       open->begin(std::move(waiting));
     } catch (const std::bad_alloc&) {
       lock.unlock();
       reportRefused(waiting.report, waiting.collected.format.number, outOfMemory());
       waiting.on_taken();
-      sink.noteLost(stream);
+      sink.noteLost(next_wanted->stream);
       lock.lock();
-      finish(stream);
+      finish(*next_wanted);
     }
     work.notify_all();  // its other planes are for others
     return true;
   }
 
-  void finish(const std::string& stream) {
-    if (streams.at(stream).empty()) {
-      streams.erase(stream);
+  void finish(const FrameOrigin& origin) {
+    if (streams.at(origin.stream).empty()) {
+      streams.erase(origin.stream);
     } else {
-      queue.push_back(stream);  // behind the others
+      queue.push_back(origin);  // behind the others
       work.notify_one();
     }
   }
@@ -187,22 +205,22 @@ struct FrameIntake::State {
       deliver(open);
     } catch (const std::exception& thrown) {
       noteThrown("handing over a frame", thrown);
-      sink.noteLost(open.stream);
+      sink.noteLost(open.origin.stream);
     }
   }
 
   void deliver(OpenFrame& open) {
     WaitingFrame& waiting = open.frame;
     const uint64_t number = waiting.collected.format.number;
-    const uint64_t session = waiting.collected.session;
-    const Payer publisher(waiting.collected.publisher);
+    const FrameOrigin origin = {open.origin.stream, waiting.collected.session,
+                                Payer(waiting.collected.publisher)};
+    sink.noteDecoded(origin, open.spent_ns);
     absl::StatusOr<FramePtr> frame = unlessThrown([&] { return join(open); });
     if (!frame.ok()) {
       reportRefused(waiting.report, number, frame.status());
-      return sink.noteLost(open.stream);
+      return sink.noteLost(origin.stream);
     }
-    sink.offerFrame({open.stream, session, publisher}, *std::move(frame),
-                    std::move(waiting.report));
+    sink.offerFrame(origin, *std::move(frame), std::move(waiting.report));
   }
 };
 
@@ -236,9 +254,9 @@ void FrameIntake::offer(const std::string& stream, CollectedFrame frame, FrameTi
     return;
   }
   const auto [entry, idle] = state_->streams.try_emplace(stream);
+  if (idle) state_->queue.push_back({stream, frame.session, Payer(frame.publisher)});
   const std::optional<WaitingFrame> replaced =
       entry->second.push({std::move(frame), times, std::move(report), std::move(on_taken)});
-  if (idle) state_->queue.push_back(stream);
   state_->work.notify_one();
   lock.unlock();
   if (replaced) {
@@ -258,7 +276,7 @@ bool FrameIntake::forget(const std::string& stream) {
   std::unique_lock lock(state_->mutex);
   const auto found = state_->streams.find(stream);
   if (found == state_->streams.end()) return true;
-  if (std::erase(state_->queue, stream) == 0) return false;  // a frame of it is open
+  if (state_->dropFromQueue(stream) == 0) return false;  // a frame of it is open
   const std::optional<WaitingFrame> dropped = found->second.take();
   state_->streams.erase(found);
   lock.unlock();

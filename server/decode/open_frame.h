@@ -40,8 +40,8 @@ inline bool isLarge(const FrameFormat& format) {
 // holds is seen by the thread that ends the last plane.
 struct OpenFrame {
   // Memory may run out here, so that the frame follows by begin().
-  OpenFrame(const std::string& name, const FrameFormat& format)
-      : stream(name),
+  OpenFrame(FrameOrigin from, const FrameFormat& format)
+      : origin(std::move(from)),
         planes(wirePlanes(format)),
         decoded(planes.size()),
         is_large(isLarge(format)),
@@ -50,13 +50,14 @@ struct OpenFrame {
   // Formats of planes stay where they are when their frame is moved.
   void begin(WaitingFrame waiting) { frame = std::move(waiting); }
 
-  const std::string stream;
+  const FrameOrigin origin;
   WaitingFrame frame;
   const std::vector<const PlaneFormat*> planes;
   DecodedPlanes decoded;
   const bool is_large;
   size_t claimed_count = 0;  // guarded by the intake's mutex, as the next
   size_t unfinished_count;
+  int64_t spent_ns = 0;  // CPU time of its planes
 };
 
 }  // namespace viewloom

@@ -7,15 +7,15 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "display/atlas_layout.h"
+#include "pipeline/decode_turns.h"
 #include "pipeline/pipeline_links.h"
 #include "publish/atlas_maker.h"
 #include "video/encoder_choice.h"
 
 namespace viewloom {
-
-class FairShares;
 
 struct PipelineOptions {
   uint32_t encode_thread_count = 2;
@@ -37,6 +37,12 @@ class Pipeline final : public AtlasMaker {
 
   void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override;
   bool wantsFrame(const std::string& stream) override;
+  size_t nextToDecode(const std::vector<FrameOrigin>& waiting) override {
+    return turnToDecode(shares(), waiting);
+  }
+  void noteDecoded(const FrameOrigin& origin, int64_t cpu_ns) override {
+    payForDecoding(shares(), origin, cpu_ns);
+  }
   void onWanted(std::function<void()> then) override;
   void noteLost(const std::string& stream) override;
   void forgetStream(const std::string& stream) override;

@@ -2,6 +2,8 @@
 // Destination of decoded frames, which reports one outcome for each frame.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -55,6 +57,11 @@ class FrameSink {
   // A frame of the stream waits to be decoded. True: it is to be decoded now, then it is offered or
   // lost. False: it waits on, and the sink knows of it.
   virtual bool wantsFrame(const std::string&) { return true; }
+  // Frames of these streams wait, the oldest first. The place of the one whose turn it is, if it is
+  // wanted.
+  virtual size_t nextToDecode(const std::vector<FrameOrigin>&) { return 0; }
+  // The decoding of a frame took so much CPU time, whether it succeeds or not.
+  virtual void noteDecoded(const FrameOrigin&, int64_t) {}
   // `then` is called on any thread when waiting frames may be wanted now. Set once, before frames
   // come.
   virtual void onWanted(std::function<void()>) {}

@@ -172,6 +172,38 @@ TEST_F(FrameIntakeTest, letsOtherStreamsPassABusyOne) {
   sink_.letGo();
 }
 
+// The newest of those that wait is next.
+class LastFirstSink : public HeldSink {
+ public:
+  size_t nextToDecode(const std::vector<FrameOrigin>& waiting) override {
+    return waiting.size() - 1;
+  }
+  void noteDecoded(const FrameOrigin& origin, int64_t cpu_ns) override {
+    EXPECT_GE(cpu_ns, 0);
+    decoded.push_back(origin.stream);
+  }
+
+  std::vector<std::string> decoded;  // on one thread
+};
+
+TEST(FrameIntake, decodesInTheOrderOfTheSink) {
+  LastFirstSink sink;
+  ManualClock clock;
+  BytePool pool(16);
+  FrameIntake intake(sink, clock, pool, {.thread_count = 1});
+  sink.hold();
+  intake.offer("first", onePixel(1), {}, [](const FrameReport&) {});
+  sink.waitForOffer();
+  for (const bool is_broken : {false, true}) {
+    intake.offer(is_broken ? "broken" : "whole", onePixel(1, is_broken), {},
+                 [](const FrameReport&) {});
+  }
+  sink.letGo();
+  intake.close();
+  EXPECT_EQ(sink.decoded, (std::vector<std::string>{"first", "broken", "whole"}))
+      << "paid for also where it fails";
+}
+
 TEST_F(FrameIntakeTest, putsEveryPlaneInItsPlaceWhoeverDecodesIt) {
   constexpr uint8_t kLayers = 4;
   constexpr uint64_t kFrames = 200;
