@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 COMMANDS = ("", "sh", "bash", "console")
 SNIPPETS = ("cpp", "glsl", "http", "js", "json", "python", "toml")
-TEXTS = ("cmake", "nginx", "text")
+TEXTS = ("cmake", "html", "nginx", "text")
 FENCE = re.compile(r"^( *)(```+|~~~+) *(\w*)$")
 REASON = re.compile(r"^\*The tests do not run this block: (\S.*)\.\*$")
 PROMPT = "$ "

@@ -227,7 +227,7 @@ std::vector<BadBytes> badBytes() {
       {"video of another size", video, none, sampleH264({16, 32}), "16x32 px at row 0"},
       {"video that refers to others", video, none, dependentH264(kSize), "key frame"},
       {"video of limited range", video, none, x264LimitedRange(), "limited range"},
-      {"video cut short", video, none, truncated(sampleH264(kSize)), "send it whole"},
+      {"video cut short", video, none, truncated(sampleH264(kSize)), "send both"},
       {"a bomb of video", video, none, sampleH264({1024, 1024}, {.qp = 51}),
        "1024x1024 px at row 0"},
       {"no video", video, none, exact, "0 rows together"},

@@ -111,8 +111,10 @@ const std::vector<BadDisplay> kOtherKinds = {
     {"eyes 11 m apart",
      [](auto& o) { stereo(o).set_eye_distance_m(11); },
      {kInvalid, kStereo + "eye_distance_m"}},
-    {"one eye",
-     [](auto& o) { stereo(o).add_eyes()->mutable_intrinsics()->set_focal_x_px(1); },
+    {"three eyes",
+     [](auto& o) {
+       for (int i = 0; i < 3; ++i) stereo(o).add_eyes()->mutable_intrinsics()->set_focal_x_px(1);
+     },
      {kInvalid, kStereo + "eyes"}},
     {"two eyes of no height",
      [](auto& o) {
