@@ -127,15 +127,10 @@ void AtlasPublisher::open(AtlasRun& run) const {
 void AtlasPublisher::begin(AtlasRunPtr run) {
   std::lock_guard lock(mutex_);
   std::deque<Pending>& of_picture = pending_[run->job.picture_key];
+  const bool has_older =
+      std::ranges::any_of(of_picture, [](const Pending& pending) { return !pending.is_complete; });
+  if (has_older) run->noteOlder();
   of_picture.push_back({std::move(run)});
-}
-
-bool AtlasPublisher::isOnItsWay(const std::string& picture_key) {
-  std::lock_guard lock(mutex_);
-  const auto of_picture = pending_.find(picture_key);
-  return of_picture != pending_.end() &&
-         std::ranges::any_of(of_picture->second,
-                             [](const Pending& pending) { return !pending.is_complete; });
 }
 
 void AtlasPublisher::complete(const AtlasRun& run) {

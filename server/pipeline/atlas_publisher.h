@@ -24,9 +24,8 @@ class AtlasPublisher {
   AtlasPublisher(const PipelineLinks& links, std::function<void(const AtlasRun& run)> on_complete)
       : links_(links), on_complete_(std::move(on_complete)) {}
 
+  // Tells the run if an older one of its picture is on its way.
   void begin(AtlasRunPtr run);
-  // Whether an atlas of the picture has begun and is not whole yet.
-  bool isOnItsWay(const std::string& picture_key);
   // The run's making has begun: its displays hear of their atlases. From one thread a picture.
   void open(AtlasRun& run) const;
   // Every strip of the run is packed.

@@ -66,7 +66,7 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
   claim.is_tracked = isTracked();
 }
 
-void AtlasRun::reserveVideo(MemoryBudget& memory, bool has_older) {
+void AtlasRun::reserveVideo(MemoryBudget& memory) {
   uint64_t bytes = 0;
   for (const AtlasOutput& output : outputs) {
     if (output.video) bytes += videoAtlasBytes(*picture->layout->stack);
@@ -80,7 +80,11 @@ void AtlasRun::reserveVideo(MemoryBudget& memory, bool has_older) {
         "smaller display, color as JPEG, or try again later");
   }
   video_memory_ = *std::move(reserved);
-  is_last_of_video_ = has_older || memory.leftFor("") < bytes;
+  is_last_of_video_ = memory.leftFor("") < bytes;
+}
+
+void AtlasRun::noteOlder() {
+  is_last_of_video_ |= video_memory_.bytes() > 0;
 }
 
 void AtlasRun::noteTraced(const RayCounts& strip_counts, int64_t now_ns) {

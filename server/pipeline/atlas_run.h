@@ -57,9 +57,10 @@ class AtlasRun {
   // are then, and no other display waits for more than one of them. So do displays with a rate, and
   // those of a video that has an atlas on its way: pictures that wait to be coded take memory.
   bool isWaitedFor() const { return isTracked() || job.tick || is_last_of_video_; }
-  // Takes the memory of its video, if it has one, before it begins. `has_older`: an older atlas of
-  // the picture is on its way. Throws EngineOutOfMemory.
-  void reserveVideo(MemoryBudget& memory, bool has_older);
+  // Takes the memory of its video, if it has one, before it begins. Throws EngineOutOfMemory.
+  void reserveVideo(MemoryBudget& memory);
+  // An older atlas of the picture is on its way. To be called before the making begins.
+  void noteOlder();
   // All its pictures are coded.
   void releaseVideo() { video_memory_.release(); }
 

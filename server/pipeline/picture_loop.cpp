@@ -188,7 +188,7 @@ bool PictureLoop::begin(AtlasJob& job) {
     putBack(std::move(run->job));
     return true;
   }
-  run->reserveVideo(links_.memory, desk_.publisher.isOnItsWay(run->job.picture_key));
+  run->reserveVideo(links_.memory);
   desk_.served.note(run->job, unserved);
   for (const ActiveDisplayPtr& display : displays) {
     links_.broadcaster.noteLayout(display->id, (*picture)->layout);

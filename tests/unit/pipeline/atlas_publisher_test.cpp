@@ -31,6 +31,21 @@ class AtlasPublisherTest : public testing::Test {
     return run;
   }
 
+  static AtlasRunPtr videoOf(const std::string& picture_key) {
+    auto layout = std::make_shared<AtlasLayout>();
+    layout->size_px = layout->tile_size_px = {64, 48};
+    layout->stack = VideoStack{.view_count = 1, .picture_count = 1, .cell_px = {64, 48}};
+    auto picture = std::make_shared<TraceJob>();
+    picture->layout = std::move(layout);
+    auto display = std::make_shared<ActiveDisplay>();
+    display->encoding.color = BandEncoding::kH264;
+    auto run = std::make_shared<AtlasRun>(
+        AtlasJob{.picture_key = picture_key, .structure = std::make_shared<ResidentStructure>()},
+        std::move(picture), Pose{}, std::vector<ActiveDisplayPtr>{std::move(display)});
+    run->outputs.front().atlas = std::make_shared<GrowingAtlas>(EncodedAtlas{});
+    return run;
+  }
+
   const Engines engines_;
   ManualClock clock_;
   Metrics metrics_;
@@ -63,14 +78,22 @@ TEST_F(AtlasPublisherTest, saysThatItCouldNotGiveUp) {
   EXPECT_TRUE(unwatched->isGivenUp());
 }
 
-TEST_F(AtlasPublisherTest, knowsWhatIsOnItsWay) {
-  const AtlasRunPtr run = runOf("picture", nullptr);
-  EXPECT_FALSE(publisher_.isOnItsWay("picture"));
-  publisher_.begin(run);
-  EXPECT_TRUE(publisher_.isOnItsWay("picture"));
-  EXPECT_FALSE(publisher_.isOnItsWay("another"));
-  publisher_.complete(*run);
-  EXPECT_FALSE(publisher_.isOnItsWay("picture"));
+TEST_F(AtlasPublisherTest, tellsAVideoThatAnOlderOneIsOnItsWay) {
+  MemoryBudget budget(100'000'000);
+  const auto begin = [&](const std::string& picture_key) {
+    AtlasRunPtr run = videoOf(picture_key);
+    run->reserveVideo(budget);
+    publisher_.begin(run);
+    return run;
+  };
+  const AtlasRunPtr first = begin("picture");
+  EXPECT_FALSE(first->isWaitedFor());
+  const AtlasRunPtr second = begin("picture");
+  EXPECT_TRUE(second->isWaitedFor());
+  EXPECT_FALSE(begin("another")->isWaitedFor());
+  publisher_.complete(*first);
+  publisher_.complete(*second);
+  EXPECT_FALSE(begin("picture")->isWaitedFor());
 }
 
 }  // namespace

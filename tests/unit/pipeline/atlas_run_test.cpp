@@ -32,16 +32,17 @@ TEST(AtlasRun, holdsTheMemoryOfItsVideo) {
   MemoryBudget budget(100'000'000);
   {
     AtlasRun run = runOf(BandEncoding::kH264);
-    run.reserveVideo(budget, false);
+    run.reserveVideo(budget);
     EXPECT_EQ(budget.reservedBytes(MemoryUse::kAtlases), videoAtlasBytes(kStack));
     EXPECT_FALSE(run.isWaitedFor());
     run.releaseVideo();
     EXPECT_EQ(budget.reservedBytes(MemoryUse::kAtlases), 0U);
-    run.reserveVideo(budget, false);
+    run.reserveVideo(budget);
   }
   EXPECT_EQ(budget.reservedBytes(MemoryUse::kAtlases), 0U) << "given up";
   AtlasRun stills = runOf(BandEncoding::kJpeg);
-  stills.reserveVideo(budget, true);
+  stills.reserveVideo(budget);
+  stills.noteOlder();
   EXPECT_EQ(budget.reservedBytes(MemoryUse::kAtlases), 0U);
   EXPECT_FALSE(stills.isWaitedFor());
 }
@@ -50,17 +51,19 @@ TEST(AtlasRun, holdsTheMemoryOfItsVideo) {
 TEST(AtlasRun, isWaitedForBehindAnotherOfItsVideo) {
   MemoryBudget budget(100'000'000);
   AtlasRun run = runOf(BandEncoding::kH264);
-  run.reserveVideo(budget, true);
+  run.reserveVideo(budget);
+  EXPECT_FALSE(run.isWaitedFor());
+  run.noteOlder();
   EXPECT_TRUE(run.isWaitedFor());
 }
 
 TEST(AtlasRun, isWaitedForWhereNoOtherFits) {
   MemoryBudget budget(videoAtlasBytes(kStack) * 3 / 2);
   AtlasRun run = runOf(BandEncoding::kH264);
-  run.reserveVideo(budget, false);
+  run.reserveVideo(budget);
   EXPECT_TRUE(run.isWaitedFor());
   AtlasRun refused = runOf(BandEncoding::kH264);
-  EXPECT_THROW(refused.reserveVideo(budget, false), EngineOutOfMemory);
+  EXPECT_THROW(refused.reserveVideo(budget), EngineOutOfMemory);
 }
 
 }  // namespace
