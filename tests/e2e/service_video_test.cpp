@@ -21,13 +21,19 @@ AtlasPicture planeOf(const Atlas& atlas, v1::AtlasPlane plane) {
   return picture.ok() ? *std::move(picture) : AtlasPicture{};
 }
 
-double colorPsnrDb(const Atlas& a, const Atlas& b) {
+// Of BT.601. In small views with edges of full colour, 4:2:0 alone takes the colour down to 30 dB.
+double lumaAt(const AtlasPicture& picture, size_t px) {
+  const auto* const rgb = &picture.samples[3 * px];
+  return (0.299 * double(rgb[0]) + 0.587 * double(rgb[1]) + 0.114 * double(rgb[2])) / 255;
+}
+
+double lumaPsnrDb(const Atlas& a, const Atlas& b) {
   const AtlasPicture of_a = planeOf(a, v1::ATLAS_PLANE_COLOR);
   const AtlasPicture of_b = planeOf(b, v1::ATLAS_PLANE_COLOR);
   EXPECT_EQ(of_a.samples.size(), of_b.samples.size());
   Psnr psnr;
-  for (size_t i = 0; i < std::min(of_a.samples.size(), of_b.samples.size()); ++i) {
-    psnr.add((double(of_a.samples[i]) - double(of_b.samples[i])) / 255);
+  for (size_t px = 0; px < std::min(of_a.samples.size(), of_b.samples.size()) / 3; ++px) {
+    psnr.add(lumaAt(of_a, px) - lumaAt(of_b, px));
   }
   return psnr.db();
 }
@@ -60,9 +66,9 @@ class ServiceVideoTest : public ServiceFixture {
   }
 };
 
-// The finest quantisation leaves little but what 4:2:0 takes, and rounding.
+// The finest quantisation has errors of a code or two, and clipped colour some more.
 constexpr uint32_t kFineQp = kVideoQpMin;
-constexpr double kFineDb = 32;
+constexpr double kFineDb = 36;
 
 TEST_F(ServiceVideoTest, showsTheSameViewsInTheSameLayout) {
   v1::OpenDisplay grid = openScene();
@@ -74,7 +80,7 @@ TEST_F(ServiceVideoTest, showsTheSameViewsInTheSameLayout) {
   for (const v1::OpenDisplay& open : {smallQuilt(), grid, stereo, one}) {
     const Atlas exact = atlasOf(open);
     const Atlas video = atlasOf(asVideo(open, kFineQp));
-    EXPECT_GT(colorPsnrDb(video, exact), kFineDb) << open.ShortDebugString();
+    EXPECT_GT(lumaPsnrDb(video, exact), kFineDb) << open.ShortDebugString();
     v1::AtlasLayout layout = *video.layout;
     layout.clear_video();
     *layout.mutable_encoding() = exact.layout->encoding();
@@ -90,7 +96,7 @@ TEST_F(ServiceVideoTest, showsWalkedViewsAsSweptOnes) {
   pose.mutable_orientation()->set_w(1);
   for (const v1::OpenDisplay& open : {swept, walked}) {
     const Atlas video = atlasOf(asVideo(open, kFineQp));
-    EXPECT_GT(colorPsnrDb(video, atlasOf(open)), kFineDb) << video.header.method();
+    EXPECT_GT(lumaPsnrDb(video, atlasOf(open)), kFineDb) << video.header.method();
   }
 }
 
