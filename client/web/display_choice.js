@@ -5,6 +5,7 @@ import {keepInAddress, pageParameters} from './address.js';
 import {allow} from './allowed.js';
 import {kQuiltSteps} from './detail_steps.js';
 import {put} from './display_document.js';
+import {kUsualCone_rad} from './eye_rig.js';
 import {RgbdChoice} from './rgbd_choice.js';
 import {acceptedEncodings, withColor} from './video_choice.js';
 
@@ -141,8 +142,10 @@ export class DisplayChoice {
 
   get #total() { return this.#value('view_count') || this.#value('columns') * this.#value('rows'); }
 
-  // Angle of the cone that a quilt's views share; 0 = nobody says it.
-  get cone_rad() { return this.isQuilt ? this.#value('view_cone_rad') : 0; }
+  // Angle of the cone that a quilt's views share; 0 = there is none.
+  get cone_rad() {
+    return this.isQuilt ? this.#value('view_cone_rad') || kUsualCone_rad : 0;
+  }
 
   // One view for one viewer: {display, encoding}. Focus stays where it is, because it would move
   // the frame of the picture with it.

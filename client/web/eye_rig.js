@@ -6,7 +6,8 @@ import {add, cameraMessage, cameraOf, cameraWithFov, fovOf, multiply, rotate, tu
 
 const kUp = [0, 1, 0];
 const kRight = [1, 0, 0];
-const kUsualCone_rad = 40 * Math.PI / 180;
+// Cone of a quilt that says none.
+export const kUsualCone_rad = 40 * Math.PI / 180;
 const kElevationMax_rad = 80 * Math.PI / 180;
 // The eye stays in front of the focal plane by this share of its distance.
 const kNearest = 0.1;

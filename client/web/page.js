@@ -107,8 +107,9 @@ const decoder = new Decoder(
       stage.show(atlas);
       setState('live', watching, viewCount());
       single.layoutChanged(viewCount());
-      controls.show(display.isEye ? {...layout, view_cone_rad: display.cone_rad} : layout);
-      lists.show(layout);
+      const whole = display.isEye ? {...layout, view_cone_rad: display.cone_rad} : layout;
+      controls.show(whole);
+      lists.show(whole);
       budget.show(atlas.header.depth_budget, layout);
       outside.show(atlas.header.views_outside, layout);
       commands.show(display.elsewhere(watching));

@@ -113,7 +113,7 @@ class Page(PageTest):
     def test_shows_the_whole_quilt_and_its_figures(self):
         self.open()
         self.browser.key("q")
-        self.browser.wait_for("!('view' in document.getElementById('stage').dataset)")
+        self.browser.wait_for("document.getElementById('panel').innerText.includes('8 × 6 = 48')")
         picture = self.shown_picture()
         self.assertAlmostEqual(picture.width / picture.height, 1, delta=0.01)
         tile_width, tile_height = picture.width / 8, picture.height / 6
