@@ -127,7 +127,7 @@ class Choices(PageTest):
 
     def test_the_focal_plane_follows_by_a_checkbox(self):
         self.browser.call("Emulation.setFocusEmulationEnabled", enabled=True)
-        self.open()
+        self.open(SMALL + "&mode=quilt")  # the focus of a single eye's view stands
         before = self.browser.evaluate(DISPLAY_IDS)
         self.browser.wait_for("!document.getElementById('follow').disabled")
         name = ("checkbox", "Focus follows the content")

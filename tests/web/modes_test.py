@@ -126,7 +126,7 @@ class Modes(PageTest):
         keep(self.browser.screenshot(), "rgbd")
         self.browser.click("#modes label:nth-of-type(2)")
         self.view(24)
-        self.browser.wait_for("document.getElementById('facts').innerText.includes('1 of 48')")
+        self.browser.wait_for("document.getElementById('facts').innerText.includes('1 × 1 = 1')")
 
     def test_tilting_the_device_looks_around(self):
         self.phone()
@@ -136,6 +136,7 @@ class Modes(PageTest):
         self.browser.wait_for("!document.getElementById('tilt').hidden")
         self.browser.call("DeviceOrientation.clearDeviceOrientationOverride")
         self.browser.evaluate("DeviceOrientationEvent.requestPermission &&= async () => 'granted'")
+        self.browser.evaluate("document.getElementById('tilt').scrollIntoView()")
         self.browser.click("#tilt")
         self.browser.wait_for("document.getElementById('tilt').ariaPressed === 'true'")
         # From 5 degrees, in the middle: 10 of 40 with its right edge away look from further left.
