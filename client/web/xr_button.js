@@ -11,6 +11,8 @@ export class XrButton {
   constructor(button, handlers) {
     this.button = button;
     this.handlers = handlers;
+    // A frame of another page has to be allowed to; where it is not, asking is an error.
+    if (document.featurePolicy?.allowsFeature('xr-spatial-tracking') === false) return;
     button.addEventListener('click', () => this.#press());
     navigator.xr?.addEventListener?.('devicechange', () => this.#offer());
     this.#offer();
