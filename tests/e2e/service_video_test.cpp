@@ -21,7 +21,7 @@ AtlasPicture planeOf(const Atlas& atlas, v1::AtlasPlane plane) {
   return picture.ok() ? *std::move(picture) : AtlasPicture{};
 }
 
-// Of BT.601. In small views with edges of full colour, 4:2:0 alone takes the colour down to 30 dB.
+// Luma of BT.601: in small views with edges of full colour, 4:2:0 alone takes colour to 30 dB.
 double lumaAt(const AtlasPicture& picture, size_t px) {
   const auto* const rgb = &picture.samples[3 * px];
   return (0.299 * double(rgb[0]) + 0.587 * double(rgb[1]) + 0.114 * double(rgb[2])) / 255;
