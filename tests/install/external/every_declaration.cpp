@@ -7,6 +7,7 @@
 #include <viewloom/byte_pool.h>
 #include <viewloom/catalog.h>
 #include <viewloom/channel.h>
+#include <viewloom/color_video.h>
 #include <viewloom/compress_frame.h>
 #include <viewloom/credentials.h>
 #include <viewloom/latency.h>
