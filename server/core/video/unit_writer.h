@@ -14,7 +14,7 @@ class UnitWriter {
  public:
   void bits(uint32_t value, uint32_t count) {
     for (uint32_t i = count; i-- > 0;) {
-      byte_ = uint8_t(byte_ << 1 | (value >> i & 1));
+      byte_ = uint8_t(uint32_t{byte_} << 1U | (value >> i & 1U));
       if (++filled_ == 8) put(std::exchange(byte_, 0));
     }
   }
