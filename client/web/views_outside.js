@@ -10,8 +10,8 @@ const percent = (share) => `${Math.ceil(100 * share - 1e-9)} %`;
 // runs: views_outside of an atlas's header; layout: its own
 function sentence(runs, layout) {
   const {total, first} = shownViews(layout);
+  if (total === 1) return `It looks past the image of the source by ${percent(runs[0].share)}.`;
   const parts = runs.map(({first_view, last_view, share}) => {
-    if (total === 1) return `it by ${percent(share)}`;
     const which = first_view === last_view ? `view ${first + first_view}` :
         `views ${first + first_view}–${first + last_view}`;
     return `${which} by ${percent(share)}`;
