@@ -2,6 +2,7 @@
 // Shows pictures with depth from where the eye is by now: late reprojection. What the newest
 // picture does not show, older ones may.
 import {GlProgram} from './gl_program.js';
+import {makeTexture} from './gl_texture.js';
 import {kSurfaceFragment, kSurfaceVertex} from './reprojection_shaders.js';
 import {clipFromSource, distance, seenAt} from './view_camera.js';
 
@@ -42,9 +43,9 @@ export class Reprojector {
       distance(a.cameras[0].position, b.cameras[0].position) > kApart * focal_m;
     if (before && older && !isApart(before, older)) this.#free(this.#kept.shift());
     while (this.#kept.length >= kKept) this.#free(this.#kept.pop());
-    const picture = this.#texture(gl.LINEAR);
+    const picture = makeTexture(gl, gl.LINEAR);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, atlas.bitmap);
-    const depth = this.#texture(gl.NEAREST);
+    const depth = makeTexture(gl, gl.NEAREST);
     const {inv_z, columns, rows} = atlas.depth;
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.R32F, columns, rows, 0, gl.RED, gl.FLOAT, inv_z);
     let inv_z_max = 0;
@@ -130,19 +131,6 @@ export class Reprojector {
     gl.uniform1f(place('stretch_max_px'), stretch_max_px * viewport.width / width);
     gl.uniform1f(place('margin_px'), stretch_max_px > 0 ? 0 : kMargin * width);
     gl.drawArrays(gl.TRIANGLES, 0, 6 * (blocks[0] + 1) * (blocks[1] + 1));
-  }
-
-  #texture(filter) {
-    const gl = this.#gl;
-    const texture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
-      gl.texParameteri(gl.TEXTURE_2D, name, filter);
-    }
-    for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) {
-      gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
-    }
-    return texture;
   }
 
   #free({picture, depth}) {

@@ -2,6 +2,7 @@
 // Makes a bitmap of the pictures of a video: the browser converts and uploads each picture, and the
 // views go to their tiles. Fast where decoder and WebGL share a GPU.
 import {GlProgram} from './gl_program.js';
+import {makeTexture} from './gl_texture.js';
 import {kCellsFragment, kCellsVertex} from './video_shaders.js';
 
 // Views in picture `index` of a stack.
@@ -39,7 +40,7 @@ export class VideoPainter {
 
   async put(index, frame) {
     const gl = this.#gl;
-    this.#textures[index] ??= this.#makeTexture();
+    this.#textures[index] ??= makeTexture(gl, gl.NEAREST);
     gl.bindTexture(gl.TEXTURE_2D, this.#textures[index]);
     gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA, gl.RGBA, gl.UNSIGNED_BYTE, frame);
   }
@@ -57,19 +58,6 @@ export class VideoPainter {
 
   close() {
     this.#gl.getExtension('WEBGL_lose_context')?.loseContext();
-  }
-
-  #makeTexture() {
-    const gl = this.#gl;
-    const texture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
-      gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
-    }
-    for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) {
-      gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
-    }
-    return texture;
   }
 
   #draw(index) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Planes of a video as textures of one WebGL context, for the shaders' kStackLookup.
+import {makeTexture} from './gl_texture.js';
 import {planeSizes} from './video_planes.js';
 
 export class VideoTextures {
@@ -46,15 +47,8 @@ export class VideoTextures {
     const gl = this.#gl;
     for (const texture of Object.values(this.#textures ?? {})) gl.deleteTexture(texture);
     const make = ({width, height}) => {
-      const texture = gl.createTexture();
-      gl.bindTexture(gl.TEXTURE_2D_ARRAY, texture);
+      const texture = makeTexture(gl, gl.LINEAR, gl.TEXTURE_2D_ARRAY);
       gl.texStorage3D(gl.TEXTURE_2D_ARRAY, 1, gl.R8, width, height, picture_count);
-      for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
-        gl.texParameteri(gl.TEXTURE_2D_ARRAY, name, gl.LINEAR);
-      }
-      for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) {
-        gl.texParameteri(gl.TEXTURE_2D_ARRAY, name, gl.CLAMP_TO_EDGE);
-      }
       return texture;
     };
     this.#textures = {luma: make(picture_size), cb: make(chroma_px), cr: make(chroma_px)};

@@ -2,6 +2,7 @@
 // Weaves quilts for a calibrated panel, px by px, and shows the panel or what an eye sees of it.
 import {lensCount} from './calibration.js';
 import {GlProgram} from './gl_program.js';
+import {makeTexture} from './gl_texture.js';
 import {makeLenticular} from './lenticular.js';
 import {VideoTextures} from './video_textures.js';
 import {fetchShaders} from './weave_shaders.js';
@@ -48,24 +49,11 @@ export class Weaver {
       weaveStack: new GlProgram(gl, shaders.weaveStack),
       eye: new GlProgram(gl, shaders.eye),
     };
-    this.#quilt = this.#makeTexture(gl.LINEAR);
+    this.#quilt = makeTexture(gl, gl.LINEAR);
     this.#planes = new VideoTextures(gl);
-    this.#panel = {texture: this.#makeTexture(gl.NEAREST), framebuffer: gl.createFramebuffer()};
+    this.#panel = {texture: makeTexture(gl, gl.NEAREST), framebuffer: gl.createFramebuffer()};
     this.#uploaded = null;
     this.#woven = {};
-  }
-
-  #makeTexture(filter) {
-    const gl = this.#gl;
-    const texture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) {
-      gl.texParameteri(gl.TEXTURE_2D, name, filter);
-    }
-    for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) {
-      gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
-    }
-    return texture;
   }
 
   // Whether there is all that drawing takes; the quilt is on the device from then on.
