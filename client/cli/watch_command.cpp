@@ -195,7 +195,7 @@ class WatchRun {
     std::lock_guard lock(mutex_);
     const double server_ms = static_cast<double>(newest_times_.total_ns()) * 1e-6;
     return strCat("frame ", newest_.frame_number(), ": ", formatNumber(rate, 1), " atlases/s, ",
-                  formatBytes(bytes_rate), "/s, ", latencyText(), " (server ",
+                  formatBytes(bytes_rate), "/s, ", videoText(newest_), latencyText(), " (server ",
                   formatNumber(server_ms, 0), " ms); ", counts.atlases.whole, " whole, ",
                   counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " incomplete",
                   motion_ ? "; " + motionText(*motion_) : "",

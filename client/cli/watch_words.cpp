@@ -30,6 +30,10 @@ std::string planeText(const v1::AtlasLayout& layout) {
   return strCat(codes.bits(), " bits of depth from ", 1 / codes.inv_z_near(), " m to ", far);
 }
 
+std::string videoText(const v1::AtlasHeader& header) {
+  return header.video_qp() == 0 ? "" : strCat("video QP ", header.video_qp(), ", ");
+}
+
 std::optional<std::string> DefaultsNews::note(const v1::AtlasHeader& header,
                                               const std::string& taken) {
   const uint64_t before = std::exchange(count_, header.defaults_count());

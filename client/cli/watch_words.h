@@ -19,6 +19,9 @@ std::string motionText(const MotionLatency& latency);
 // "focal plane at 2.00 m", or the depths that the codes of an RGBD display span.
 std::string planeText(const v1::AtlasLayout& layout);
 
+// "video QP 32, " for H.264: the quantisation that the server has chosen. "" for other encodings.
+std::string videoText(const v1::AtlasHeader& header);
+
 // Says when a stream's defaults, and with them a display, have changed.
 // Thread-safety: none; one owner.
 class DefaultsNews {

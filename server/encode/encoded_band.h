@@ -84,6 +84,7 @@ struct EncodedAtlas : AtlasOutcome {
   Pose display_pose;
   std::shared_ptr<const AtlasLayout> layout;
   EncodingSpec encoding;
+  uint32_t video_qp = 0;  // quantisation of H.264, which its display may leave to the server
   TraceMethod method = TraceMethod::kWalk;
   SourceStats stats;
   DefaultsTaking taking;                    // of the stream's defaults

@@ -109,6 +109,23 @@ EncodedAtlas begunAtlas(const AtlasRun& run) {
   return atlas;
 }
 
+// Its quantisation.
+uint32_t beginVideo(const AtlasOutput& output, int64_t now_ns) {
+  const std::shared_ptr<DisplayCoding>& coding = output.display->coding;
+  if (!coding) return output.display->encoding.video_qp;
+  const uint32_t qp = coding->beginAtlas(now_ns);
+  output.video->setQp(qp);
+  return qp;
+}
+
+// Readers learn what an atlas takes by those before it.
+void noteCoded(const AtlasOutput& output, const EncodedAtlas& atlas) {
+  if (!output.display->coding) return;
+  uint64_t bytes = 0;
+  for (const EncodedBand& band : atlas.bands) bytes += band.bytes->size();
+  output.display->coding->noteCoded(atlas.video_qp, bytes);
+}
+
 }  // namespace
 
 void AtlasPublisher::open(AtlasRun& run) const {
@@ -118,6 +135,7 @@ void AtlasPublisher::open(AtlasRun& run) const {
     atlas.display_id = output.display->id;
     atlas.sequence = links_.broadcaster.nextSequence(atlas.display_id);
     atlas.encoding = output.display->encoding;
+    if (output.video) atlas.video_qp = beginVideo(output, links_.clock.nowNs());
     atlas.bands = bandsOf(output, *atlas.layout);
     output.atlas = std::make_shared<GrowingAtlas>(std::move(atlas));
     links_.broadcaster.begin(output.atlas);
@@ -235,6 +253,7 @@ void AtlasPublisher::publish(AtlasRun& run) {
     if (isSeenByEyes(run)) {
       links_.metrics.eye_poses_age.observe(double(atlas->eye_poses_age_ns) * 1e-9);
     }
+    noteCoded(output, *atlas);
     links_.broadcaster.publish(atlas);
     links_.metrics.atlases_encoded.add();
     if (run.job.ticket) run.job.ticket->noteTraced({atlas->display_id, counts.coverage, times});

@@ -30,6 +30,8 @@ class VideoAtlas {
  public:
   VideoAtlas(const VideoStack& stack, uint32_t qp);
 
+  // To be called before the first rows are put.
+  void setQp(uint32_t qp) { qp_ = qp; }
   uint32_t pictureCount() const { return uint32_t(pictures_.size()); }
   // Rows of a picture, each once. True: codeNext() has to be called, by whoever is told.
   bool put(uint32_t picture, const BandPixels& rows, BytePool& pool);
@@ -47,7 +49,7 @@ class VideoAtlas {
   bool isNextReady() const;
 
   const SizePx picture_px_;
-  const uint32_t qp_;
+  uint32_t qp_;
   std::unique_ptr<VideoEncoder> encoder_;  // from the first picture to the last; whose turn it is
   std::vector<uint8_t> access_unit_;       // the same
   std::mutex mutex_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/check.h"
@@ -11,6 +12,13 @@
 #include "publish/watched_displays.h"
 
 namespace viewloom {
+namespace {
+
+std::shared_ptr<DisplayCoding> codingOf(const EncodingSpec& encoding) {
+  return adaptsQuality(encoding) ? std::make_shared<DisplayCoding>(encoding) : nullptr;
+}
+
+}  // namespace
 
 struct Broadcaster::State {
   State(BroadcasterLimits limits, MemoryBudget& budget) : memory(budget), displays(limits) {}
@@ -45,7 +53,7 @@ struct Broadcaster::State {
 // A viewer at its place, and what there is to tell it.
 struct Broadcaster::State::Joined {
   MemberPtr member;
-  uint64_t display_id = 0;
+  ActiveDisplayPtr display;
   AtlasPtr newest;
   GrowingAtlasPtr growing;
 };
@@ -75,7 +83,7 @@ absl::StatusOr<std::optional<Broadcaster::State::Joined>> Broadcaster::State::jo
   WatchedDisplay& joined =
       is_open ? displays.at(key) : displays.open(display, key, std::move(seat.display));
   displays.add(joined, member);
-  return Joined{std::move(member), joined.active->id, joined.newest, joined.growing};
+  return Joined{std::move(member), joined.active, joined.newest, joined.growing};
 }
 
 Broadcaster::Broadcaster(BroadcasterLimits limits, MemoryBudget& memory)
@@ -95,7 +103,8 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
                               .spec = spec,
                               .encoding = encoding,
                               .picture_key = std::move(picture_key),
-                              .eyes = std::move(eyes)};
+                              .eyes = std::move(eyes),
+                              .coding = codingOf(encoding)};
   std::optional<State::Joined> joined;
   while (!joined) {
     absl::StatusOr<Seat> seat = state_->admit(display, key, *subscriber);
@@ -106,7 +115,7 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
     joined = *std::move(tried);
   }
   auto subscription =
-      std::make_unique<Subscription>(state_, joined->display_id, joined->member->id());
+      std::make_unique<Subscription>(state_, *joined->display, joined->member->id());
   if (joined->newest != nullptr) {
     joined->member->offer(joined->newest);
   } else {
@@ -225,6 +234,14 @@ uint64_t Broadcaster::atlasCount(uint64_t display_id) const {
   return found == nullptr ? 0 : found->atlas_count;
 }
 
+void Broadcaster::riseStanding(int64_t now_ns) {
+  std::set<std::string> streams;
+  for (const ActiveDisplayPtr& display : displays("")) {
+    if (display->coding && display->coding->wantsFiner(now_ns)) streams.insert(display->stream);
+  }
+  for (const std::string& stream : streams) state_->announce(stream);
+}
+
 void Broadcaster::drain() {
   std::vector<MemberPtr> members;
   {
@@ -239,11 +256,33 @@ void Broadcaster::drain() {
   for (const MemberPtr& member : members) member->end(absl::OkStatus());
 }
 
-Broadcaster::Subscription::Subscription(std::shared_ptr<State> state, uint64_t display_id,
+Broadcaster::Subscription::Subscription(std::shared_ptr<State> state, const ActiveDisplay& display,
                                         uint64_t subscriber_id)
-    : state_(std::move(state)), display_id_(display_id), subscriber_id_(subscriber_id) {}
+    : state_(std::move(state)),
+      display_id_(display.id),
+      subscriber_id_(subscriber_id),
+      coding_(display.coding) {
+  if (coding_) coding_->join(subscriber_id_);
+}
+
+void Broadcaster::Subscription::beginWrite(uint64_t bytes, int64_t now_ns) {
+  if (coding_) coding_->beginWrite(subscriber_id_, bytes, now_ns);
+}
+
+void Broadcaster::Subscription::endWrite(int64_t now_ns) {
+  if (coding_) coding_->endWrite(subscriber_id_, now_ns);
+}
+
+void Broadcaster::Subscription::endAtlas(int64_t now_ns) {
+  if (coding_) coding_->endAtlas(subscriber_id_, now_ns);
+}
+
+bool Broadcaster::Subscription::mayBegin(int64_t now_ns) const {
+  return !coding_ || coding_->mayBegin(subscriber_id_, now_ns);
+}
 
 Broadcaster::Subscription::~Subscription() {
+  if (coding_) coding_->leave(subscriber_id_);
   std::string stream;
   bool was_last = false;
   {

@@ -14,6 +14,7 @@
 #include "base/status.h"
 #include "display/display_spec.h"
 #include "eye_poses/eye_track.h"
+#include "publish/display_coding.h"
 #include "publish/subscriber.h"
 
 namespace viewloom {
@@ -26,7 +27,8 @@ struct ActiveDisplay {
   EncodingSpec encoding;
   // stream + displayKey: displays that share one trace. That of a tracked display is its own.
   std::string picture_key;
-  EyeTrackPtr eyes;  // of a tracked display; else nullptr
+  EyeTrackPtr eyes;                       // of a tracked display; else nullptr
+  std::shared_ptr<DisplayCoding> coding;  // of video whose quality adapts; else nullptr
   uint32_t subscriber_count = 0;
   std::vector<Payer> viewers;  // of the subscribers, each once; they pay for it together
 };
@@ -93,6 +95,10 @@ class Broadcaster {
   // Atlases published for the display so far.
   uint64_t atlasCount(uint64_t display_id) const;
 
+  // To be called a few times a second: displays whose frames stand want their newest atlas again,
+  // at the finest quality (DisplayCoding::wantsFiner).
+  void riseStanding(int64_t now_ns);
+
   // Ends every subscriber with OK and refuses new ones.
   void drain();
 
@@ -103,14 +109,22 @@ class Broadcaster {
 
 class Broadcaster::Subscription {
  public:
-  Subscription(std::shared_ptr<State> state, uint64_t display_id, uint64_t subscriber_id);
+  Subscription(std::shared_ptr<State> state, const ActiveDisplay& display, uint64_t subscriber_id);
   ~Subscription();
   uint64_t displayId() const { return display_id_; }
+
+  // Notes of what the subscriber's connection takes; see DisplayCoding. Nothing happens where the
+  // quality of the display does not adapt.
+  void beginWrite(uint64_t bytes, int64_t now_ns);
+  void endWrite(int64_t now_ns);
+  void endAtlas(int64_t now_ns);
+  bool mayBegin(int64_t now_ns) const;
 
  private:
   std::shared_ptr<State> state_;
   uint64_t display_id_;
   uint64_t subscriber_id_;
+  std::shared_ptr<DisplayCoding> coding_;
 };
 
 }  // namespace viewloom

@@ -67,6 +67,7 @@ std::optional<grpc::ByteBuffer> AtlasOutbox::takeBefore(bool may_begin) {
 }
 
 std::optional<grpc::ByteBuffer> AtlasOutbox::take(bool may_begin) {
+  has_ended_atlas_ = false;
   std::optional<grpc::ByteBuffer> message = takeBefore(may_begin);
   if (!message && sending_) {
     message = sending_->next(reader_);
@@ -76,6 +77,7 @@ std::optional<grpc::ByteBuffer> AtlasOutbox::take(bool may_begin) {
         metrics_.atlases_sent[Transport::kGrpc].add();
       }
       sending_.reset();
+      has_ended_atlas_ = true;
     }
   }
   if (message) metrics_.sent_bytes[Transport::kGrpc].add(static_cast<double>(message->Length()));

@@ -56,6 +56,8 @@ class AtlasOutbox {
   std::optional<grpc::ByteBuffer> take(bool may_begin);
   // take() has another to give at once.
   bool hasMore() const { return sending_ && sending_->isReady(); }
+  // The message that take() gave last was the last one of an atlas.
+  bool hasEndedAtlas() const { return has_ended_atlas_; }
   // All that are wanted were written.
   bool isThrough() const { return count_ != 0 && sent_count_ == count_; }
 
@@ -76,6 +78,7 @@ class AtlasOutbox {
   std::optional<AtlasMessages> sending_;
   AtlasAnnouncements announcements_;
   SentPoses sent_poses_;
+  bool has_ended_atlas_ = false;
 };
 
 }  // namespace viewloom

@@ -164,6 +164,7 @@ void BidiCall::advance() {
       unread_.restart();
       grpc::WriteOptions options;
       if (moreFollows()) options.set_buffer_hint();
+      if (waitsForSocket()) options.set_write_through();
       StartWrite(&outgoing_, options);
     }
   }

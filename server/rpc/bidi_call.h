@@ -61,6 +61,10 @@ class BidiCall : public grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuff
   // Whether takeMessage has another to give right after the one it gave last, which then need not
   // leave alone. With the lock.
   virtual bool moreFollows() const { return false; }
+  // Whether the message that takeMessage gave last counts as written only once the socket has taken
+  // it, with all before it. Others count as written while up to a megabyte of them waits. With the
+  // lock.
+  virtual bool waitsForSocket() const { return false; }
   // False holds the next read back until a message is written. With the lock.
   virtual bool wantsToRead() const { return true; }
   // False holds the end back although there is nothing to write yet. With the lock.

@@ -76,6 +76,7 @@ v1::AtlasEncoding encodingToProto(const EncodingSpec& encoding) {
   if (encoding.color != BandEncoding::kH264) return proto;
   proto.set_prediction(v1::PREDICTION_WITHIN_ATLAS);
   proto.set_video_qp(encoding.video_qp);
+  proto.set_bits_per_second_max(encoding.bits_per_second_max);
   return proto;
 }
 

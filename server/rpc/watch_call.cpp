@@ -8,42 +8,11 @@
 #include "messages/eye_poses_from_proto.h"
 #include "messages/wire_message.h"
 #include "publish/eye_intake.h"
-#include "publish/subscriber.h"
 #include "rpc/display_request.h"
 #include "rpc/stream_name.h"
+#include "rpc/watch_seat.h"
 
 namespace viewloom {
-
-class WatchCall::Seat final : public Subscriber {
- public:
-  Seat(const std::shared_ptr<WatchCall>& call, uint64_t number, std::string field)
-      : call_(call), identity_(call->identity_), number_(number), field_(std::move(field)) {}
-
-  std::string identity() const override { return identity_; }
-  void begin(GrowingAtlasPtr atlas) override {
-    if (const auto call = call_.lock()) call->begin(number_, std::move(atlas));
-  }
-  void noteGrowth() override {
-    if (const auto call = call_.lock()) call->noteGrowth(number_);
-  }
-  void offer(AtlasPtr atlas) override {
-    if (const auto call = call_.lock()) call->offer(number_, std::move(atlas));
-  }
-  void end(const absl::Status& status) override {
-    if (const auto call = call_.lock()) call->endSeat(number_, inField(status));
-  }
-  // Errors of the display name the field that asked for it.
-  absl::Status inField(const absl::Status& status) const {
-    const std::string of = fieldOf(status);
-    return of.empty() || of.starts_with("eye_poses") ? status : withFieldPrefix(status, field_);
-  }
-
- private:
-  const std::weak_ptr<WatchCall> call_;
-  const std::string identity_;
-  const uint64_t number_;
-  const std::string field_;  // that asked for the display
-};
 
 absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
   const int64_t received_ns = parts_.clock.nowNs();
@@ -184,8 +153,11 @@ absl::Status WatchCall::handleHalfClose() {
 
 void WatchCall::handleWritten() {
   bool counted_out = false;
+  const int64_t now_ns = parts_.clock.nowNs();
   {
     std::lock_guard lock(mutex_);
+    if (subscription_ && writes_end_) subscription_->endAtlas(now_ns);
+    if (subscription_) subscription_->endWrite(now_ns);
     counted_out = outbox_.isThrough();
   }
   if (counted_out) end(absl::OkStatus());
@@ -248,13 +220,24 @@ void WatchCall::endUnlessWatching() {
 // that floods the call with probes still gets atlases.
 std::optional<grpc::ByteBuffer> WatchCall::takeMessage() {
   std::optional<grpc::ByteBuffer> message;
+  writes_end_ = false;
   if (!std::exchange(replied_last_, false)) message = takeReply();
-  if (!message.has_value()) message = outbox_.take(!ending() || draining_);
+  if (!message.has_value()) message = takeOfAtlas();
   if (!message.has_value()) message = takeReply();
   if (!message.has_value()) message = takeHeartbeat();
   if (!message.has_value()) return std::nullopt;
   told_.restart();
   caller_->noteBytes(message->Length());
+  return message;
+}
+
+std::optional<grpc::ByteBuffer> WatchCall::takeOfAtlas() {
+  const int64_t now_ns = parts_.clock.nowNs();
+  const bool has_budget = !subscription_ || subscription_->mayBegin(now_ns);
+  std::optional<grpc::ByteBuffer> message =
+      outbox_.take((!ending() || draining_) && (has_budget || draining_));
+  writes_end_ = outbox_.hasEndedAtlas();
+  if (message && subscription_) subscription_->beginWrite(message->Length(), now_ns);
   return message;
 }
 
@@ -269,9 +252,9 @@ std::optional<grpc::ByteBuffer> WatchCall::takeHeartbeat() {
 void WatchCall::tick() {
   if (const absl::Status status = caller_.tick(); !status.ok()) end(status);
   std::lock_guard lock(mutex_);
-  if (!wants_heartbeats_ || ending() || !told_.reaches(kHeartbeatTicks)) return;
-  heartbeat_is_due_ = true;
-  advance();
+  if (ending()) return;
+  if (wants_heartbeats_ && told_.reaches(kHeartbeatTicks)) heartbeat_is_due_ = true;
+  advance();  // an atlas may wait until the reader may have more in a second
 }
 
 std::optional<grpc::ByteBuffer> WatchCall::takeReply() {

@@ -64,6 +64,8 @@ class WatchCall final : public BidiCall {
   void release() override;
   std::optional<grpc::ByteBuffer> takeMessage() override;
   bool moreFollows() const override { return outbox_.hasMore(); }
+  // The next atlas is chosen once the socket has this one: a newer one may have come by then.
+  bool waitsForSocket() const override { return writes_end_; }
 
   absl::Status handleOpen(const v1::OpenDisplay& request);
   absl::Status handleChange(const v1::ChangeDisplay& request);
@@ -78,6 +80,7 @@ class WatchCall final : public BidiCall {
   void noteGrowth(uint64_t seat_number);
   void offer(uint64_t seat_number, AtlasPtr atlas);
   void endSeat(uint64_t seat_number, const absl::Status& status);
+  std::optional<grpc::ByteBuffer> takeOfAtlas();
   std::optional<grpc::ByteBuffer> takeReply();
   std::optional<grpc::ByteBuffer> takeHeartbeat();
 
@@ -98,6 +101,7 @@ class WatchCall final : public BidiCall {
   AtlasOutbox outbox_;
   ClockReplies clock_replies_;
   bool replied_last_ = false;  // the last message written is one of them
+  bool writes_end_ = false;    // the message being written is the last one of an atlas
   bool wants_heartbeats_ = false;
   bool heartbeat_is_due_ = false;
   TicksSince told_;  // to the client

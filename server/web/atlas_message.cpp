@@ -123,6 +123,7 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
                  {"mailbox_ns", delivery.mailbox_ns},
                  {"shown_ns", delivery.shown_ns}};
   if (isVideo(atlas)) {
+    header["video_qp"] = atlas.video_qp;
     for (const SharedBytes& picture : colorBands(atlas)) {
       header["picture_bytes"].push_back(picture->size());
     }

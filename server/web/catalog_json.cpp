@@ -89,7 +89,8 @@ json encodingJson(const EncodingSpec& encoding) {
   if (encoding.color == BandEncoding::kH264) {
     return {{"color", "H264"},
             {"jpeg_quality", encoding.jpeg_quality},
-            {"video_qp", encoding.video_qp}};
+            {"video_qp", encoding.video_qp},
+            {"bits_per_second_max", encoding.bits_per_second_max}};
   }
   return {{"jpeg_quality", encoding.jpeg_quality},
           {"chroma", encoding.chroma == Chroma::k444 ? "444" : "420"}};

@@ -227,7 +227,7 @@ net::awaitable<void> Viewer::writeUntilEnd() {
       co_await close(*ended);
       co_return;
     }
-    if (under_way_.size() < kUnderWayCountMax) {
+    if (under_way_.size() < kUnderWayCountMax && subscription_->mayBegin(context_.clock.nowNs())) {
       if (auto arrival = inbox_->take()) {
         co_await writeAtlas(*std::move(arrival), error);
         continue;
@@ -268,8 +268,10 @@ net::awaitable<void> Viewer::writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& 
   for (const auto& part : message.parts()) buffers.emplace_back(part.data(), part.size());
   socket_.binary(true);
   beginOfWrite();
+  subscription_->beginWrite(message.sizeBytes(), now_ns);
   co_await socket_.async_write(buffers, into(error));
   endOfWrite();
+  if (subscription_) subscription_->endAtlas(context_.clock.nowNs());
   if (error) co_return;
   context_.metrics.atlases_sent[Transport::kWeb].add();
   context_.metrics.sent_bytes[Transport::kWeb].add(static_cast<double>(message.sizeBytes()));

@@ -117,6 +117,7 @@ TEST_F(ServiceVideoTest, sendsOnePictureABandAsTheLayoutSays) {
   EXPECT_EQ(atlas.layout->encoding().video_qp(), 24u) << "matched to quality 85";
   EXPECT_TRUE(atlas.header.discardable());
   EXPECT_EQ(atlas.header.reference_sequence(), 0u);
+  EXPECT_EQ(atlas.header.video_qp(), 24u);
   ASSERT_EQ(atlas.bands.size(), stack.picture_count());
   for (uint32_t picture = 0; picture < stack.picture_count(); ++picture) {
     const AtlasBand& band = atlas.bands[picture];

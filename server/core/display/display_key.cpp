@@ -109,6 +109,10 @@ std::string encodingKey(const EncodingSpec& encoding) {
   if (is_jpeg || encoding.color == BandEncoding::kJpegPlanes) key.add(encoding.jpeg_quality);
   if (is_jpeg) key.add(static_cast<uint32_t>(encoding.chroma));
   if (encoding.color == BandEncoding::kH264) key.add(encoding.video_qp);
+  if (adaptsQuality(encoding)) {
+    key.add(encoding.video_qp_max);
+    key.add(static_cast<double>(encoding.bits_per_second_max));
+  }
   key.add(static_cast<uint32_t>(encoding.with_depth));
   key.add(static_cast<uint32_t>(encoding.with_mask));
   key.add(static_cast<uint32_t>(encoding.with_depth_codes));

@@ -171,6 +171,10 @@ absl::Status validateEncodingSpec(const EncodingSpec& encoding) {
                       "ZSTD or RAW");
 }
 
+bool adaptsQuality(const EncodingSpec& encoding) {
+  return encoding.color == BandEncoding::kH264 && encoding.video_qp_max > encoding.video_qp;
+}
+
 uint32_t matchedVideoQp(uint32_t jpeg_quality) {
   const MatchedQp* const above =
       std::ranges::lower_bound(kMatchedQps, jpeg_quality, {}, &MatchedQp::jpeg_quality);

@@ -88,10 +88,20 @@ struct EncodingSpec {
   bool with_mask = false;
   bool with_depth_codes = false;              // displays with 16-bit depth need them
   BandEncoding planes = BandEncoding::kZstd;  // kZstd or kRaw; of depth alone, kCompactDepth
-  uint32_t video_qp = 24;                     // of kH264, kVideoQpMin..kVideoQpMax
+  uint32_t video_qp = 24;                     // finest one of kH264, kVideoQpMin..kVideoQpMax
+  // Coarsest quantisation that the server may choose, up to kVideoQpMax. Up to video_qp, it chooses none.
+  uint32_t video_qp_max = 0;
+  uint64_t bits_per_second_max = 0;  // of video whose quality adapts; 0 = as many as lines take
 
   bool operator==(const EncodingSpec&) const = default;
 };
+
+// Whether the server chooses the quantisation, atlas by atlas.
+bool adaptsQuality(const EncodingSpec& encoding);
+
+inline constexpr uint32_t kVideoQpMax = 51;
+// Steps by which the server may coarsen a quantisation.
+inline constexpr uint32_t kAdaptedQpSpan = 16;
 
 // Quantisation of H.264 whose error is at most that of a JPEG of this quality, 1..100.
 uint32_t matchedVideoQp(uint32_t jpeg_quality);

@@ -3,6 +3,7 @@
 
 #include <google/protobuf/descriptor.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -223,10 +224,17 @@ constexpr EnumRow<v1::Prediction, bool> kPredictions[] = {{v1::PREDICTION_UNSPEC
 
 // Refuses fields of the protocol that this server does not serve.
 absl::Status refuseUnserved(const v1::AtlasEncoding& proto) {
-  VIEWLOOM_RETURN_IF_ERROR(enumFromProto(proto.prediction(), "prediction", kPredictions).status());
-  if (proto.bits_per_second_max() == 0) return absl::OkStatus();
-  return fieldError(absl::StatusCode::kUnimplemented, "bits_per_second_max",
-                    "this server keeps one quantisation; accepted is 0. Give video_qp instead");
+  return enumFromProto(proto.prediction(), "prediction", kPredictions).status();
+}
+
+// A quantisation that is given alone stays.
+void setQuality(const v1::AtlasEncoding& proto, EncodingSpec& encoding) {
+  if (proto.video_qp() != 0) encoding.video_qp = proto.video_qp();
+  if (encoding.color != BandEncoding::kH264) return;
+  if (proto.video_qp() == 0) encoding.video_qp = matchedVideoQp(encoding.jpeg_quality);
+  encoding.bits_per_second_max = proto.bits_per_second_max();
+  const bool adapts = proto.video_qp() == 0 || proto.bits_per_second_max() != 0;
+  if (adapts) encoding.video_qp_max = std::min(encoding.video_qp + kAdaptedQpSpan, kVideoQpMax);
 }
 
 }  // namespace
@@ -263,11 +271,7 @@ absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
   encoding.with_depth_codes = hasDepthPlane(display);
   encoding.planes = *planes;
   if (proto.jpeg_quality() != 0) encoding.jpeg_quality = proto.jpeg_quality();
-  if (proto.video_qp() != 0) {
-    encoding.video_qp = proto.video_qp();
-  } else if (encoding.color == BandEncoding::kH264) {
-    encoding.video_qp = matchedVideoQp(encoding.jpeg_quality);
-  }
+  setQuality(proto, encoding);
   encoding.with_depth = proto.with_depth();
   encoding.with_mask = proto.with_mask();
   VIEWLOOM_RETURN_IF_ERROR(validateEncodingSpec(encoding));

@@ -50,6 +50,11 @@ TEST(EncodingKey, ignoresWhatDoesNotReachTheBytes) {
   EXPECT_EQ(encodingKey({.video_qp = 10}), encodingKey({.video_qp = 20}));
   EXPECT_NE(encodingKey({.color = BandEncoding::kH264, .video_qp = 10}),
             encodingKey({.color = BandEncoding::kH264, .video_qp = 20}));
+  const EncodingSpec adapting = {.color = BandEncoding::kH264, .video_qp = 20, .video_qp_max = 36};
+  EncodingSpec limited = adapting;
+  limited.bits_per_second_max = 8'000'000;
+  EXPECT_NE(encodingKey(adapting), encodingKey({.color = BandEncoding::kH264, .video_qp = 20}));
+  EXPECT_NE(encodingKey(adapting), encodingKey(limited));
   EXPECT_NE(arrangementKey({.color = BandEncoding::kH264}), arrangementKey({}));
   EXPECT_NE(encodingKey({.with_mask = true}), encodingKey({.with_depth = true}));
 }

@@ -146,6 +146,7 @@ TEST(AtlasMessage, holdsPicturesOfAVideo) {
   const auto atlas = someAtlas();
   EXPECT_FALSE(headerOf(atlas).contains("picture_bytes"));
   atlas->encoding = {.color = BandEncoding::kH264, .video_qp = 30};
+  atlas->video_qp = 34;
   atlas->bands[1].image_index = 1;
   auto layout = std::make_shared<AtlasLayout>(*atlas->layout);
   layout->tile_size_px = {16, 20};
@@ -156,6 +157,7 @@ TEST(AtlasMessage, holdsPicturesOfAVideo) {
   EXPECT_EQ(header.at("picture_bytes"), nlohmann::json::parse("[2, 1]"));
   EXPECT_EQ(header.at("encoding").at("color"), "H264");
   EXPECT_EQ(header.at("encoding").at("video_qp"), 30);
+  EXPECT_EQ(header.at("video_qp"), 34);
   const nlohmann::json& video = header.at("layout").at("video");
   EXPECT_EQ(video.at("picture_count"), 12);
   EXPECT_EQ(video.at("cell_size").at("height"), 20);

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "publish/display_coding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+namespace viewloom {
+namespace {
+
+// Without an atlas for so long, and for twice the time between the last two, frames stand.
+constexpr int64_t kStanding_ns = 500'000'000;
+
+QualityRange rangeOf(const EncodingSpec& encoding) {
+  return {.finest_qp = encoding.video_qp,
+          .coarsest_qp = encoding.video_qp_max,
+          .bits_per_second_max = encoding.bits_per_second_max};
+}
+
+}  // namespace
+
+DisplayCoding::DisplayCoding(const EncodingSpec& encoding)
+    : range_(rangeOf(encoding)), rung_(range_) {}
+
+void DisplayCoding::join(uint64_t reader) {
+  std::lock_guard lock(mutex_);
+  links_.try_emplace(reader);
+}
+
+void DisplayCoding::leave(uint64_t reader) {
+  std::lock_guard lock(mutex_);
+  links_.erase(reader);
+}
+
+void DisplayCoding::beginWrite(uint64_t reader, uint64_t bytes, int64_t now_ns) {
+  std::lock_guard lock(mutex_);
+  const auto link = links_.find(reader);
+  if (link != links_.end()) link->second.beginWrite(bytes, now_ns);
+}
+
+void DisplayCoding::endWrite(uint64_t reader, int64_t now_ns) {
+  std::lock_guard lock(mutex_);
+  const auto link = links_.find(reader);
+  if (link != links_.end()) link->second.endWrite(now_ns);
+}
+
+void DisplayCoding::endAtlas(uint64_t reader, int64_t now_ns) {
+  std::lock_guard lock(mutex_);
+  const auto link = links_.find(reader);
+  if (link != links_.end()) link->second.endAtlas(now_ns);
+}
+
+bool DisplayCoding::mayBegin(uint64_t reader, int64_t now_ns) const {
+  if (range_.bits_per_second_max == 0) return true;
+  std::lock_guard lock(mutex_);
+  const auto link = links_.find(reader);
+  return link == links_.end() || link->second.recentBytes(now_ns) * 8 < range_.bits_per_second_max;
+}
+
+uint32_t DisplayCoding::beginAtlas(int64_t now_ns) {
+  std::lock_guard lock(mutex_);
+  if (last_qp_ != 0) apart_ns_ = now_ns - begun_ns_;
+  begun_ns_ = now_ns;
+  rung_.noteBegun(now_ns);
+  rung_.adapt(medianSpeed(now_ns), now_ns);
+  last_qp_ = std::exchange(is_wanted_, false) ? range_.finest_qp : rung_.qp();
+  return last_qp_;
+}
+
+void DisplayCoding::noteCoded(uint32_t qp, uint64_t bytes) {
+  std::lock_guard lock(mutex_);
+  rung_.noteCoded(qp, bytes);
+}
+
+bool DisplayCoding::wantsFiner(int64_t now_ns) {
+  std::lock_guard lock(mutex_);
+  const bool is_coarse = last_qp_ > range_.finest_qp;
+  const bool do_stand = now_ns - begun_ns_ >= std::max(kStanding_ns, 2 * apart_ns_);
+  if (is_wanted_ || !is_coarse || !do_stand || !isIdle()) return false;
+  is_wanted_ = true;
+  return true;
+}
+
+bool DisplayCoding::isWanted() const {
+  std::lock_guard lock(mutex_);
+  return is_wanted_;
+}
+
+// Readers without a limit are faster than all others.
+std::optional<double> DisplayCoding::medianSpeed(int64_t now_ns) const {
+  std::vector<double> speeds;
+  for (const auto& [reader, link] : links_) {
+    speeds.push_back(link.bytesPerSecond(now_ns).value_or(HUGE_VAL));
+  }
+  if (speeds.empty()) return std::nullopt;
+  const auto median = speeds.begin() + std::ptrdiff_t(speeds.size() / 2);
+  std::ranges::nth_element(speeds, median);
+  return std::isinf(*median) ? std::nullopt : std::optional(*median);
+}
+
+bool DisplayCoding::isIdle() const {
+  return std::ranges::none_of(links_, [](const auto& entry) { return entry.second.isWriting(); });
+}
+
+}  // namespace viewloom

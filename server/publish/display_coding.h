@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quality of the video of one display, between its readers and the encoders.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+
+#include "display/display_spec.h"
+#include "publish/quality_rung.h"
+#include "publish/reader_link.h"
+
+namespace viewloom {
+
+// One rung serves all readers of a display. It follows the median of their lines; of two readers,
+// the faster one. Slower readers skip atlases. Once frames stand, the last atlas is coded again at
+// the finest quality.
+// Times are monotonic. Thread-safety: all methods may be called from any thread.
+class DisplayCoding {
+ public:
+  // Expects an encoding whose quality adapts (adaptsQuality).
+  explicit DisplayCoding(const EncodingSpec& encoding);
+
+  // For readers, each under a number of its own.
+  void join(uint64_t reader);
+  void leave(uint64_t reader);
+  void beginWrite(uint64_t reader, uint64_t bytes, int64_t now_ns);
+  void endWrite(uint64_t reader, int64_t now_ns);
+  // All that this reader was written since the last such call was one atlas. Ends the write under
+  // way.
+  void endAtlas(uint64_t reader, int64_t now_ns);
+  // Whether this reader may be given another atlas: it got no more than bits_per_second_max in the
+  // last second.
+  bool mayBegin(uint64_t reader, int64_t now_ns) const;
+
+  // For the encoders. An atlas begins: its quantisation.
+  uint32_t beginAtlas(int64_t now_ns);
+  // It was coded.
+  void noteCoded(uint32_t qp, uint64_t bytes);
+
+  // To be called a few times a second. True when frames have come to stand, and the newest atlas is
+  // to be made again: beginAtlas() then gives the finest quantisation once.
+  bool wantsFiner(int64_t now_ns);
+  // The newest atlas is to be made again, and has not begun yet.
+  bool isWanted() const;
+
+ private:
+  std::optional<double> medianSpeed(int64_t now_ns) const;
+  bool isIdle() const;
+
+  const QualityRange range_;
+  mutable std::mutex mutex_;  // guards what follows
+  QualityRung rung_;
+  std::map<uint64_t, ReaderLink> links_;
+  bool is_wanted_ = false;
+  uint32_t last_qp_ = 0;  // of the newest atlas; 0 = none yet
+  int64_t begun_ns_ = 0;  // likewise
+  int64_t apart_ns_ = 0;  // it and the one before; 0 = there is none
+};
+
+}  // namespace viewloom
