@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "e2e/client/resetting_proxy.h"
 
-#include <poll.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -11,8 +10,13 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "support/socket_bytes.h"
+
 namespace viewloom {
 namespace {
+
+using test::isReadable;
+using test::sendAll;
 
 constexpr int kTick_ms = 10;
 constexpr size_t kFrameHeadBytes = 9;
@@ -33,21 +37,6 @@ int listenAt(const std::string& path) {
     throw std::runtime_error("the proxy cannot listen at " + path);
   }
   return listener;
-}
-
-bool isReadable(int socket, int timeout_ms) {
-  pollfd waiting{.fd = socket, .events = POLLIN, .revents = 0};
-  return poll(&waiting, 1, timeout_ms) > 0;
-}
-
-bool sendAll(int socket, const uint8_t* bytes, size_t count) {
-  while (count > 0) {
-    const ssize_t sent = send(socket, bytes, count, MSG_NOSIGNAL);
-    if (sent <= 0) return false;
-    bytes += sent;
-    count -= size_t(sent);
-  }
-  return true;
 }
 
 bool sendReset(int socket, uint32_t code) {

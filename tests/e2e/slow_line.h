@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// A proxy before a server of TCP that sends no faster than a line would.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace viewloom::test {
+
+// Passes the bytes of each connection both ways; those of the server at the speed of the line,
+// which may change at any time. It holds few bytes, as lines with short queues do. Thread-safety:
+// all methods may be called from any thread.
+class SlowLine {
+ public:
+  // `server_address`: "127.0.0.1:PORT".
+  SlowLine(const std::string& server_address, double mbit_per_second);
+  ~SlowLine();
+  SlowLine(const SlowLine&) = delete;
+  SlowLine& operator=(const SlowLine&) = delete;
+
+  std::string address() const;
+  void setSpeed(double mbit_per_second) { bytes_per_ms_ = mbit_per_second * 1e6 / 8 / 1e3; }
+
+ private:
+  void accept(const std::stop_token& stop);
+  // Until either side closes.
+  void pass(const std::stop_token& stop, int client, int server);
+
+  const uint16_t server_port_;
+  const int listener_;
+  std::atomic<double> bytes_per_ms_;
+  std::vector<std::jthread> passers_;  // the acceptor's own
+  std::jthread acceptor_;              // last: it uses the rest
+};
+
+}  // namespace viewloom::test
