@@ -7,6 +7,7 @@ namespace viewloom::cli {
 namespace {
 
 constexpr uint64_t kEncodingBytesMax = uint64_t{64} << 10;
+constexpr uint64_t kMbit = 1'000'000;
 constexpr const char* kEncodingGroup = "Encoding";
 
 }  // namespace
@@ -29,11 +30,18 @@ void addEncodingOptions(const usage::Command& app, EncodingOptions& options) {
                                              "Send colour without loss (zstd) instead of JPEG")
                                      .excludes(json)
                                      .group(kEncodingGroup);
-  app.addFlag("--h264", options.is_h264,
-              "Send colour as video instead of JPEG: a quarter of the bytes, more CPU time")
-      .excludes(json)
-      .excludes(full)
-      .excludes(lossless)
+  const usage::Option h264 =
+      app.addFlag("--h264", options.is_h264,
+                  "Send colour as video instead of JPEG: a quarter of the bytes, more CPU time")
+          .excludes(json)
+          .excludes(full)
+          .excludes(lossless)
+          .group(kEncodingGroup);
+  app.add("--mbit-max", options.mbit_max,
+          "Most Mbit/s of video, 1 to 10000; without it, as many as the line takes")
+      .valueName("N")
+      .between(1U, 10000U)
+      .needs(h264)
       .group(kEncodingGroup);
 }
 
@@ -56,6 +64,7 @@ absl::StatusOr<v1::AtlasEncoding> makeEncoding(const EncodingOptions& options) {
   if (options.is_444) encoding.set_color(v1::BAND_ENCODING_JPEG);
   if (options.is_h264) encoding.set_color(v1::BAND_ENCODING_H264);
   encoding.set_jpeg_quality(options.jpeg_quality);
+  encoding.set_bits_per_second_max(uint64_t{options.mbit_max} * kMbit);
   if (options.is_444) encoding.set_chroma(v1::CHROMA_SUBSAMPLING_444);
   encoding.set_with_mask(options.has_mask);
   return encoding;

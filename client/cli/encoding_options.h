@@ -17,6 +17,7 @@ struct EncodingOptions {
   bool is_444 = false;
   bool is_lossless = false;
   bool is_h264 = false;
+  uint32_t mbit_max = 0;  // a second, of H.264; 0 = as many as the line takes
   bool has_mask = false;
 };
 

@@ -162,6 +162,9 @@ Metrics::Metrics(ClientNames names)
       bands_encoded(counter(store_->registry, "viewloom_bands_encoded_total", "Bands encoded.")),
       video_pictures(counter(store_->registry, "viewloom_video_pictures_total",
                              "Pictures of H.264 encoded; they are bands, too.")),
+      coarse_atlases(counter(store_->registry, "viewloom_coarse_atlases_total",
+                             "Atlases of H.264 encoded coarser than their viewers asked for, "
+                             "because their lines are slow.")),
       encoded_bytes(
           counter(store_->registry, "viewloom_encoded_bytes_total", "Bytes of all encoded bands.")),
       rays(counters<RayAnswer>(store_->registry, "viewloom_rays_total",

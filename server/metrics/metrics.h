@@ -128,6 +128,7 @@ class Metrics {
   Counter atlases_given_up;  // begun, but not finished: nobody watched them any more
   Counter bands_encoded;
   Counter video_pictures;  // of those
+  Counter coarse_atlases;
   Counter encoded_bytes;
   Labelled<RayAnswer, Counter> rays;          // {answer}; shares are ratios of their rates
   Labelled<HandOver, Counter> replaced;       // {hand_over}; drops, newest wins

@@ -254,6 +254,7 @@ void AtlasPublisher::publish(AtlasRun& run) {
       links_.metrics.eye_poses_age.observe(double(atlas->eye_poses_age_ns) * 1e-9);
     }
     noteCoded(output, *atlas);
+    if (atlas->video_qp > atlas->encoding.video_qp) links_.metrics.coarse_atlases.add();
     links_.broadcaster.publish(atlas);
     links_.metrics.atlases_encoded.add();
     if (run.job.ticket) run.job.ticket->noteTraced({atlas->display_id, counts.coverage, times});

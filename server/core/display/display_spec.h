@@ -89,7 +89,7 @@ struct EncodingSpec {
   bool with_depth_codes = false;              // displays with 16-bit depth need them
   BandEncoding planes = BandEncoding::kZstd;  // kZstd or kRaw; of depth alone, kCompactDepth
   uint32_t video_qp = 24;                     // finest one of kH264, kVideoQpMin..kVideoQpMax
-  // Coarsest quantisation that the server may choose, up to kVideoQpMax. Up to video_qp, it chooses none.
+  // Coarsest one that the server may choose, up to kVideoQpMax. Up to video_qp, it chooses none.
   uint32_t video_qp_max = 0;
   uint64_t bits_per_second_max = 0;  // of video whose quality adapts; 0 = as many as lines take
 
