@@ -10,7 +10,7 @@ namespace {
 constexpr uint32_t kStepQp = 4;
 // Bytes at a step, by those at the finer one (Portrait quilts at QP 22 to 38: 0.65 to 0.69).
 constexpr double kStepBytes = 0.68;
-constexpr int64_t kWindow_ns = 1'000'000'000;
+constexpr int64_t kRungWindow_ns = 1'000'000'000;
 constexpr size_t kBegunMax = 256;
 constexpr double kNewestWeight = 0.3;
 // Share of the line that a step may take: the one that is used, and one to go to.
@@ -32,7 +32,7 @@ uint32_t QualityRung::qpOf(size_t step) const {
 
 void QualityRung::noteBegun(int64_t now_ns) {
   begun_ns_.push_back(now_ns);
-  while (begun_ns_.size() > kBegunMax || begun_ns_.front() < now_ns - kWindow_ns) {
+  while (begun_ns_.size() > kBegunMax || begun_ns_.front() < now_ns - kRungWindow_ns) {
     begun_ns_.pop_front();
   }
 }
@@ -46,7 +46,7 @@ void QualityRung::noteCoded(uint32_t qp, uint64_t bytes) {
 
 double QualityRung::demand(uint32_t qp, int64_t now_ns) const {
   const auto count = std::ranges::count_if(
-      begun_ns_, [&](int64_t begun_ns) { return begun_ns > now_ns - kWindow_ns; });
+      begun_ns_, [&](int64_t begun_ns) { return begun_ns > now_ns - kRungWindow_ns; });
   const double steps = (double(qp) - double(range_.finest_qp)) / kStepQp;
   return double(count) * finest_bytes_ * std::pow(kStepBytes, steps);
 }

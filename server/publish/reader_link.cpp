@@ -7,7 +7,7 @@
 namespace viewloom {
 namespace {
 
-constexpr int64_t kWindow_ns = 1'000'000'000;
+constexpr int64_t kLinkWindow_ns = 1'000'000'000;
 // Enough for 120 atlases a second over the window.
 constexpr size_t kDeliveriesMax = 128;
 // An atlas that keeps the socket busy for so long tells the speed by itself. Shorter waits may come
@@ -38,7 +38,8 @@ void ReaderLink::endAtlas(int64_t now_ns) {
   endWrite(now_ns);
   current_.done_ns = now_ns;
   deliveries_.push_back(std::exchange(current_, {}));
-  while (deliveries_.size() > kDeliveriesMax || deliveries_.front().done_ns < now_ns - kWindow_ns) {
+  while (deliveries_.size() > kDeliveriesMax ||
+         deliveries_.front().done_ns < now_ns - kLinkWindow_ns) {
     deliveries_.pop_front();
   }
 }
@@ -55,7 +56,7 @@ ReaderLink::Delivery ReaderLink::current(int64_t now_ns) const {
 ReaderLink::Delivery ReaderLink::recent(int64_t now_ns) const {
   Delivery recent = current(now_ns);
   for (const Delivery& delivery : deliveries_) {
-    if (delivery.done_ns < now_ns - kWindow_ns) continue;
+    if (delivery.done_ns < now_ns - kLinkWindow_ns) continue;
     recent.bytes += delivery.bytes;
     recent.busy_ns += delivery.busy_ns;
   }
@@ -67,7 +68,8 @@ std::optional<double> ReaderLink::bytesPerSecond(int64_t now_ns) const {
   std::optional<double> speed;
   if (all.busy_ns >= kKnown_ns) speed = rateOf(all.bytes, all.busy_ns);
   Delivery newest = current(now_ns);
-  const bool is_recent = !deliveries_.empty() && deliveries_.back().done_ns >= now_ns - kWindow_ns;
+  const bool is_recent =
+      !deliveries_.empty() && deliveries_.back().done_ns >= now_ns - kLinkWindow_ns;
   if (newest.busy_ns < kTelling_ns && is_recent) newest = deliveries_.back();
   if (newest.busy_ns < kTelling_ns) return speed;
   const double of_newest = rateOf(newest.bytes, newest.busy_ns);
