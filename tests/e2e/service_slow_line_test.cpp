@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Video of a whole server over a line whose speed changes.
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>

@@ -20,7 +20,7 @@ constexpr int kTick_ms = 10;
 // Kernel buffers on the way: what a line of a few hops holds. The kernel doubles them.
 constexpr int kBufferBytes = 32 << 10;
 // Bytes that may go at once after a pause, in milliseconds of the line.
-constexpr double kBurst_ms = 5;
+constexpr double kBurst_ms = 20;
 
 sockaddr_in loopback(uint16_t port) {
   sockaddr_in address{};
