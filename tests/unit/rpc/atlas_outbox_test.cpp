@@ -89,6 +89,22 @@ TEST_F(AtlasOutboxTest, writesBandsOfAnAtlasThatIsBeingMade) {
   EXPECT_EQ(written(), "") << "what was offered is what was written";
 }
 
+TEST_F(AtlasOutboxTest, saysWhichMessageEndsAnAtlas) {
+  outbox_.offer(whole(1));
+  EXPECT_EQ(written(3), "Lh1b");
+  EXPECT_FALSE(outbox_.hasEndedAtlas());
+  EXPECT_EQ(written(2), "be");
+  EXPECT_TRUE(outbox_.hasEndedAtlas());
+  EXPECT_EQ(written(), "");
+  EXPECT_FALSE(outbox_.hasEndedAtlas());
+  const GrowingAtlasPtr growing = grow(2);
+  growing->put(0, someBytes());
+  EXPECT_EQ(written(), "h2b");
+  growing->abandon();
+  EXPECT_EQ(written(1), "a");
+  EXPECT_TRUE(outbox_.hasEndedAtlas());
+}
+
 TEST_F(AtlasOutboxTest, finishesTheOlderAtlasOfAClientThatIsSlow) {
   const GrowingAtlasPtr first = grow(1);
   complete(*first);
