@@ -21,7 +21,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr int64_t kMs = 1'000'000;
-constexpr uint32_t kFinestQp = 10;
+constexpr uint32_t kFinestQp = 20;
 
 // An atlas as it came.
 struct Seen {
@@ -102,7 +102,7 @@ class ServiceSlowLineTest : public ServiceFixture {
  protected:
   // Fine video of which each atlas has some hundred kilobytes.
   static v1::OpenDisplay fineVideo() {
-    v1::OpenDisplay open = openQuilt("scene", {1200, 1200});
+    v1::OpenDisplay open = openQuilt("scene", {1600, 1600});
     open.mutable_encoding()->set_color(v1::BAND_ENCODING_H264);
     open.mutable_encoding()->set_video_qp(kFinestQp);
     open.mutable_encoding()->set_bits_per_second_max(1'000'000'000);
