@@ -104,6 +104,13 @@ absl::Status statusOf(int code, std::string_view call) {
   return absl::InternalError(strCat("OpenH264: ", call, " failed with code ", code));
 }
 
+absl::Status makeParameters(ISVCEncoder& encoder, const VideoFormat& format,
+                            SEncParamExt& parameters) {
+  VIEWLOOM_RETURN_IF_ERROR(statusOf(encoder.GetDefaultParams(&parameters), "GetDefaultParams"));
+  setParameters(format, parameters);
+  return absl::OkStatus();
+}
+
 void appendUnits(const SFrameBSInfo& coded, std::vector<uint8_t>& access_unit) {
   for (int i = 0; i < coded.iLayerNum; ++i) {
     const SLayerBSInfo& layer = coded.sLayerInfo[i];
@@ -132,8 +139,7 @@ absl::StatusOr<std::unique_ptr<OpenH264Encoder>> OpenH264Encoder::make(const Vid
   int quiet = WELS_LOG_QUIET;
   encoder->SetOption(ENCODER_OPTION_TRACE_LEVEL, &quiet);
   SEncParamExt parameters;
-  VIEWLOOM_RETURN_IF_ERROR(statusOf(encoder->GetDefaultParams(&parameters), "GetDefaultParams"));
-  setParameters(format, parameters);
+  VIEWLOOM_RETURN_IF_ERROR(makeParameters(*encoder, format, parameters));
   VIEWLOOM_RETURN_IF_ERROR(statusOf(encoder->InitializeExt(&parameters), "InitializeExt"));
   return std::unique_ptr<OpenH264Encoder>(new OpenH264Encoder(format, std::move(encoder)));
 }
@@ -142,6 +148,21 @@ OpenH264Encoder::OpenH264Encoder(const VideoFormat& format, EncoderPtr encoder)
     : format_(format), encoder_(std::move(encoder)) {}
 
 OpenH264Encoder::~OpenH264Encoder() = default;
+
+// The library takes another quantisation of the layer without a new IDR picture, where all else is
+// as it was.
+absl::Status OpenH264Encoder::setQp(uint32_t qp) {
+  if (qp == format_.qp) return absl::OkStatus();
+  VideoFormat format = format_;
+  format.qp = qp;
+  VIEWLOOM_RETURN_IF_ERROR(checkFormat(format));
+  SEncParamExt parameters;
+  VIEWLOOM_RETURN_IF_ERROR(makeParameters(*encoder_, format, parameters));
+  VIEWLOOM_RETURN_IF_ERROR(
+      statusOf(encoder_->SetOption(ENCODER_OPTION_SVC_ENCODE_PARAM_EXT, &parameters), "SetOption"));
+  format_ = format;
+  return absl::OkStatus();
+}
 
 absl::Status OpenH264Encoder::encode(const VideoPicture& picture, Reference reference,
                                      std::vector<uint8_t>& access_unit) {

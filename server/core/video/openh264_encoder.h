@@ -19,6 +19,7 @@ class OpenH264Encoder final : public VideoEncoder {
   ~OpenH264Encoder() override;
 
   const VideoFormat& format() const override { return format_; }
+  absl::Status setQp(uint32_t qp) override;
   absl::Status encode(const VideoPicture& picture, Reference reference,
                       std::vector<uint8_t>& access_unit) override;
 
@@ -30,7 +31,7 @@ class OpenH264Encoder final : public VideoEncoder {
 
   OpenH264Encoder(const VideoFormat& format, EncoderPtr encoder);
 
-  const VideoFormat format_;
+  VideoFormat format_;
   const EncoderPtr encoder_;
   int64_t time_ms_ = 0;  // of the next picture; the library wants them to grow
 };
