@@ -79,7 +79,9 @@ absl::Status PictureCache::layOut(const ActiveDisplay& display, const StreamDefa
           ? makeAtlasLayout(*withFocalDistance(spec, *entry.focal_distance_m), defaults, eyes.get())
           : makeAtlasLayout(spec, defaults, eyes.get());
   if (!made.ok()) return made.status();
-  if (display.encoding.color == BandEncoding::kH264) VIEWLOOM_RETURN_IF_ERROR(stackViews(*made));
+  if (display.encoding.color == BandEncoding::kH264) {
+    VIEWLOOM_RETURN_IF_ERROR(stackViews(*made, display.encoding.prediction));
+  }
   entry.layout = std::make_shared<const AtlasLayout>(*std::move(made));
   return absl::OkStatus();
 }

@@ -99,6 +99,7 @@ std::string displayKey(const DisplaySpec& spec) {
 }
 
 std::string arrangementKey(const EncodingSpec& encoding) {
+  if (isChained(encoding)) return "chained ";
   return encoding.color == BandEncoding::kH264 ? "stacked " : "";
 }
 
@@ -108,7 +109,10 @@ std::string encodingKey(const EncodingSpec& encoding) {
   const bool is_jpeg = encoding.color == BandEncoding::kJpeg;
   if (is_jpeg || encoding.color == BandEncoding::kJpegPlanes) key.add(encoding.jpeg_quality);
   if (is_jpeg) key.add(static_cast<uint32_t>(encoding.chroma));
-  if (encoding.color == BandEncoding::kH264) key.add(encoding.video_qp);
+  if (encoding.color == BandEncoding::kH264) {
+    key.add(encoding.video_qp);
+    key.add(static_cast<uint32_t>(encoding.prediction));
+  }
   if (adaptsQuality(encoding)) {
     key.add(encoding.video_qp_max);
     key.add(static_cast<double>(encoding.bits_per_second_max));

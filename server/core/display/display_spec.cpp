@@ -9,7 +9,6 @@
 #include "base/check.h"
 #include "base/str_cat.h"
 #include "display/atlas_layout.h"
-#include "display/video_stack.h"
 #include "video/quantisation.h"
 
 namespace viewloom {
@@ -42,7 +41,7 @@ absl::Status refuseVideo(std::string_view what, std::string_view problem) {
                                       "; accepted are JPEG, JPEG_PLANES, ZSTD or RAW"));
 }
 
-absl::Status validateVideoOf(const DisplaySpec& spec) {
+absl::Status validateVideoOf(const DisplaySpec& spec, Prediction prediction) {
   if (std::holds_alternative<LenticularSpec>(spec.kind)) {
     return refuseVideo("a lenticular panel", "has another view in each subpixel");
   }
@@ -53,7 +52,8 @@ absl::Status validateVideoOf(const DisplaySpec& spec) {
     return refuseVideo("an RGBD display", "has depth, which video would change");
   }
   const TileGrid grid = tileGridOf(spec);
-  const absl::Status planned = planVideoStack(grid.tile_size_px, grid.view_count).status();
+  const absl::Status planned =
+      planVideoStack(grid.tile_size_px, grid.view_count, prediction).status();
   return planned.ok() ? planned : withFieldPrefix(planned, "color");
 }
 
@@ -175,6 +175,10 @@ bool adaptsQuality(const EncodingSpec& encoding) {
   return encoding.color == BandEncoding::kH264 && encoding.video_qp_max > encoding.video_qp;
 }
 
+bool isChained(const EncodingSpec& encoding) {
+  return encoding.color == BandEncoding::kH264 && encoding.prediction == Prediction::kAcrossAtlases;
+}
+
 uint32_t matchedVideoQp(uint32_t jpeg_quality) {
   const MatchedQp* const above =
       std::ranges::lower_bound(kMatchedQps, jpeg_quality, {}, &MatchedQp::jpeg_quality);
@@ -186,7 +190,7 @@ uint32_t matchedVideoQp(uint32_t jpeg_quality) {
 }
 
 absl::Status validateEncodingOf(const DisplaySpec& spec, const EncodingSpec& encoding) {
-  if (encoding.color == BandEncoding::kH264) return validateVideoOf(spec);
+  if (encoding.color == BandEncoding::kH264) return validateVideoOf(spec, encoding.prediction);
   const bool shares_chroma =
       encoding.color == BandEncoding::kJpeg && encoding.chroma == Chroma::k420;
   if (!shares_chroma || tileGridOf(spec).rays_per_px == 1) return absl::OkStatus();

@@ -14,6 +14,7 @@
 #include "display/effects.h"
 #include "display/fields.h"
 #include "display/ray_samples.h"
+#include "display/video_stack.h"
 #include "frame/camera.h"
 
 namespace viewloom {
@@ -92,12 +93,15 @@ struct EncodingSpec {
   // Coarsest one that the server may choose, up to kVideoQpMax. Up to video_qp, it chooses none.
   uint32_t video_qp_max = 0;
   uint64_t bits_per_second_max = 0;  // of video whose quality adapts; 0 = as many as lines take
+  Prediction prediction = Prediction::kWithinAtlas;  // of kH264
 
   bool operator==(const EncodingSpec&) const = default;
 };
 
 // Whether the server chooses the quantisation, atlas by atlas.
 bool adaptsQuality(const EncodingSpec& encoding);
+// Whether atlases may refer to the one before.
+bool isChained(const EncodingSpec& encoding);
 
 inline constexpr uint32_t kVideoQpMax = 51;
 // Steps by which the server may coarsen a quantisation.

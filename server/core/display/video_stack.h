@@ -9,6 +9,12 @@
 
 namespace viewloom {
 
+// Pictures that a picture of a video may refer to.
+enum class Prediction : uint8_t {
+  kWithinAtlas,    // the one before in its atlas: each atlas can be decoded alone
+  kAcrossAtlases,  // the same picture of the atlas before: each picture is a stream of its own
+};
+
 // Place of a cell of a stack, from the top left.
 struct StackCell {
   uint32_t picture = 0;
@@ -36,10 +42,12 @@ struct VideoStack {
 // Largest side of a picture: hardware decoders stop there.
 inline constexpr SizePx kVideoPictureMax_px = {4096, 2176};
 
-// Plans the stack of so many views of one size. Pictures have about a million pixels: smaller ones
-// predict better, larger ones give decoders fewer calls. RESOURCE_EXHAUSTED if one view is larger
-// than kVideoPictureMax_px.
-absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count);
+// Plans the stack of so many views of one size. Within an atlas, pictures have about a million
+// pixels: smaller ones predict better, larger ones give decoders fewer calls. Across atlases there
+// are as few as can be, but three, so that coding begins early: each takes an encoder and a decoder
+// of its own. RESOURCE_EXHAUSTED if one view is larger than kVideoPictureMax_px.
+absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count,
+                                          Prediction prediction = Prediction::kWithinAtlas);
 
 // Memory that an encoder of such pictures takes, bytes; within a tenth.
 uint64_t videoEncoderBytes(SizePx picture_px);

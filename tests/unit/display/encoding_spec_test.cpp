@@ -56,6 +56,11 @@ TEST(EncodingKey, ignoresWhatDoesNotReachTheBytes) {
   EXPECT_NE(encodingKey(adapting), encodingKey({.color = BandEncoding::kH264, .video_qp = 20}));
   EXPECT_NE(encodingKey(adapting), encodingKey(limited));
   EXPECT_NE(arrangementKey({.color = BandEncoding::kH264}), arrangementKey({}));
+  const EncodingSpec chained = {.color = BandEncoding::kH264,
+                                .prediction = Prediction::kAcrossAtlases};
+  EXPECT_NE(encodingKey(chained), encodingKey({.color = BandEncoding::kH264}));
+  EXPECT_NE(arrangementKey(chained), arrangementKey({.color = BandEncoding::kH264}));
+  EXPECT_EQ(encodingKey({.prediction = Prediction::kAcrossAtlases}), encodingKey({}));
   EXPECT_NE(encodingKey({.with_mask = true}), encodingKey({.with_depth = true}));
 }
 
