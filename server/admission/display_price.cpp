@@ -53,7 +53,8 @@ uint64_t encodedBytes(const EncodingSpec& encoding, uint64_t area_px) {
 // Stack of the views of a video; none for other encodings.
 std::optional<VideoStack> stackOf(const TileGrid& grid, const EncodingSpec& encoding) {
   if (encoding.color != BandEncoding::kH264) return std::nullopt;
-  const absl::StatusOr<VideoStack> stack = planVideoStack(grid.tile_size_px, grid.view_count);
+  const absl::StatusOr<VideoStack> stack =
+      planVideoStack(grid.tile_size_px, grid.view_count, encoding.prediction);
   if (!stack.ok()) return std::nullopt;  // refused elsewhere
   return *stack;
 }
@@ -99,9 +100,14 @@ DisplayPrice displayPrice(const DisplaySpec& spec, const EncodingSpec& encoding)
       stack ? stack->pictureSize().area() * stack->picture_count : grid.width_px * grid.height_px;
   const uint64_t samples =
       std::max(spec.filter.sample_count, spec.lens ? spec.lens->walked_count : 1U);
+  const uint64_t pictures_bytes = stack ? videoPicturesBytes(*stack) : 0;
+  const uint64_t encoder_bytes = stack ? videoEncoderBytes(stack->pictureSize()) : 0;
+  const bool is_chained = stack && isChained(encoding);
   return {.rays_bytes = kRaysCopies * samples * grid.view_count * sizeof(abi::ViewParams),
           .encoded_bytes = encodedBytes(encoding, area_px),
-          .making_bytes = makingBytes(encoding, area_px) + (stack ? videoAtlasBytes(*stack) : 0)};
+          .making_bytes =
+              makingBytes(encoding, area_px) + pictures_bytes + (is_chained ? 0 : encoder_bytes),
+          .chain_bytes = is_chained ? stack->picture_count * encoder_bytes : 0};
 }
 
 absl::StatusOr<Reservation> admitDisplay(MemoryBudget& budget, const DisplaySpec& spec,

@@ -17,9 +17,10 @@ struct DisplayPrice {
   uint64_t rays_bytes = 0;     // where each view and each sample of its pixels lies
   uint64_t encoded_bytes = 0;  // one atlas as it is sent
   uint64_t making_bytes = 0;   // planes of one atlas while it is made
+  uint64_t chain_bytes = 0;    // encoders that chained video keeps from atlas to atlas
 
-  // Held while it is open: its rays, its newest atlas, and the one that follows.
-  uint64_t displayBytes() const { return rays_bytes + 2 * encoded_bytes; }
+  // Held while it is open: its rays, its newest atlas, the one that follows, and its encoders.
+  uint64_t displayBytes() const { return rays_bytes + 2 * encoded_bytes + chain_bytes; }
   // A slow viewer is still sent an older atlas; its call has buffers.
   uint64_t viewerBytes() const;
 };

@@ -71,6 +71,8 @@ struct AtlasOutcome {
 struct EncodedAtlas : AtlasOutcome {
   uint64_t display_id = 0;
   uint64_t sequence = 0;  // of its display and encoding, from 1
+  // Atlas of the display that its pictures refer to; 0 = it needs no other.
+  uint64_t reference_sequence = 0;
   uint64_t frame_number = 0;
   int64_t capture_time_ns = 0;
   int64_t present_at_ns = 0;
@@ -91,6 +93,13 @@ struct EncodedAtlas : AtlasOutcome {
   std::optional<DepthBudget> depth_budget;  // where views are neighbours
   std::vector<double> outside_shares;       // of each view; none of a cube map
   std::vector<EncodedBand> bands;
+
+  // Bytes of the bands that are there.
+  uint64_t byteCount() const {
+    uint64_t count = 0;
+    for (const EncodedBand& band : bands) count += band.bytes ? band.bytes->size() : 0;
+    return count;
+  }
 };
 
 using AtlasPtr = std::shared_ptr<const EncodedAtlas>;

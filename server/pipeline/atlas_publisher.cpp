@@ -109,21 +109,27 @@ EncodedAtlas begunAtlas(const AtlasRun& run) {
   return atlas;
 }
 
-// Its quantisation.
-uint32_t beginVideo(const AtlasOutput& output, int64_t now_ns) {
-  const std::shared_ptr<DisplayCoding>& coding = output.display->coding;
-  if (!coding) return output.display->encoding.video_qp;
-  const uint32_t qp = coding->beginAtlas(now_ns);
-  output.video->setQp(qp);
-  return qp;
+// Its quantisation, and the atlas that it refers to.
+void beginVideo(const AtlasOutput& output, int64_t now_ns, EncodedAtlas& atlas) {
+  const ActiveDisplay& display = *output.display;
+  VideoStart start{.qp = display.encoding.video_qp};
+  if (display.coding) start.qp = display.coding->beginAtlas(now_ns);
+  atlas.video_qp = start.qp;
+  if (display.chain) {
+    atlas.reference_sequence = display.chain->begin(atlas.sequence, now_ns);
+    start.chain = display.chain->encoders();
+    start.is_self_contained = atlas.reference_sequence == 0;
+  }
+  output.video->begin(std::move(start));
 }
 
-// Readers learn what an atlas takes by those before it.
+// Readers learn what an atlas takes by those before it. Of a chain, those that need no other are
+// few and large, and say nothing about the rest.
 void noteCoded(const AtlasOutput& output, const EncodedAtlas& atlas) {
-  if (!output.display->coding) return;
-  uint64_t bytes = 0;
-  for (const EncodedBand& band : atlas.bands) bytes += band.bytes->size();
-  output.display->coding->noteCoded(atlas.video_qp, bytes);
+  const ActiveDisplay& display = *output.display;
+  if (display.chain) display.chain->noteWhole(atlas.sequence);
+  const bool is_usual = !display.chain || atlas.reference_sequence != 0;
+  if (display.coding && is_usual) display.coding->noteCoded(atlas.video_qp, atlas.byteCount());
 }
 
 }  // namespace
@@ -135,7 +141,7 @@ void AtlasPublisher::open(AtlasRun& run) const {
     atlas.display_id = output.display->id;
     atlas.sequence = links_.broadcaster.nextSequence(atlas.display_id);
     atlas.encoding = output.display->encoding;
-    if (output.video) atlas.video_qp = beginVideo(output, links_.clock.nowNs());
+    if (output.video) beginVideo(output, links_.clock.nowNs(), atlas);
     atlas.bands = bandsOf(output, *atlas.layout);
     output.atlas = std::make_shared<GrowingAtlas>(std::move(atlas));
     links_.broadcaster.begin(output.atlas);

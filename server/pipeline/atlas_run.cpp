@@ -69,7 +69,10 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
 void AtlasRun::reserveVideo(MemoryBudget& memory) {
   uint64_t bytes = 0;
   for (const AtlasOutput& output : outputs) {
-    if (output.video) bytes += videoAtlasBytes(*picture->layout->stack);
+    if (!output.video) continue;
+    // Encoders of a chain are part of the display's price.
+    const VideoStack& stack = *picture->layout->stack;
+    bytes += isChained() ? videoPicturesBytes(stack) : videoAtlasBytes(stack);
   }
   if (bytes == 0) return;
   std::optional<Reservation> reserved =

@@ -53,10 +53,13 @@ class AtlasRun {
            std::vector<ActiveDisplayPtr> displays);
 
   bool isTracked() const { return outputs.front().display->eyes != nullptr; }
+  // All displays of a picture are, or none.
+  bool isChained() const { return outputs.front().display->chain != nullptr; }
   // Its display waits for the whole atlas before the next begins: that is seen by the eyes as they
   // are then, and no other display waits for more than one of them. So do displays with a rate, and
   // those of a video that has an atlas on its way: pictures that wait to be coded take memory.
-  bool isWaitedFor() const { return isTracked() || job.tick || is_last_of_video_; }
+  // Pictures of chained video refer to those of the atlas before.
+  bool isWaitedFor() const { return isTracked() || isChained() || job.tick || is_last_of_video_; }
   // Takes the memory of its video, if it has one, before it begins. Throws EngineOutOfMemory.
   void reserveVideo(MemoryBudget& memory);
   // An older atlas of the picture is on its way. To be called before the making begins.

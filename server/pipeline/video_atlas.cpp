@@ -11,7 +11,7 @@ namespace viewloom {
 
 VideoAtlas::VideoAtlas(const VideoStack& stack, uint32_t qp)
     : picture_px_(stack.pictureSize()),
-      qp_(qp),
+      start_{.qp = qp},
       pictures_(stack.picture_count, {.planes = nullptr, .rows_left = picture_px_.height}) {}
 
 std::shared_ptr<PicturePlanes> VideoAtlas::planesOf(uint32_t picture, BytePool& pool) {
@@ -35,6 +35,24 @@ bool VideoAtlas::put(uint32_t picture, const BandPixels& rows, BytePool& pool) {
   return true;
 }
 
+absl::StatusOr<VideoEncoder*> VideoAtlas::encoderOf(uint32_t picture, VideoEncoders& encoders) {
+  if (start_.chain) start_.chain->encoders.resize(pictures_.size());
+  std::unique_ptr<VideoEncoder>& encoder =
+      start_.chain ? start_.chain->encoders[picture] : encoder_;
+  if (!encoder) {
+    absl::StatusOr<std::unique_ptr<VideoEncoder>> taken = encoders.take(picture_px_, start_.qp);
+    VIEWLOOM_RETURN_IF_ERROR(taken.status());
+    encoder = *std::move(taken);
+  }
+  VIEWLOOM_RETURN_IF_ERROR(encoder->setQp(start_.qp));
+  return encoder.get();
+}
+
+Reference VideoAtlas::referenceOf(uint32_t picture) const {
+  const bool refers = start_.chain ? !start_.is_self_contained : picture != 0;
+  return refers ? Reference::kPictureBefore : Reference::kNone;
+}
+
 absl::StatusOr<CodedPicture> VideoAtlas::codeNext(VideoEncoders& encoders, BytePool& bytes) {
   std::shared_ptr<PicturePlanes> planes;
   CodedPicture coded;
@@ -44,21 +62,18 @@ absl::StatusOr<CodedPicture> VideoAtlas::codeNext(VideoEncoders& encoders, ByteP
     coded.picture = next_;
     planes = std::move(pictures_[next_].planes);
   }
-  if (!encoder_) {
-    absl::StatusOr<std::unique_ptr<VideoEncoder>> taken = encoders.take(picture_px_, qp_);
-    VIEWLOOM_RETURN_IF_ERROR(taken.status());
-    encoder_ = *std::move(taken);
-  }
-  const Reference reference = coded.picture == 0 ? Reference::kNone : Reference::kPictureBefore;
+  const absl::StatusOr<VideoEncoder*> encoder = encoderOf(coded.picture, encoders);
+  VIEWLOOM_RETURN_IF_ERROR(encoder.status());
   const int64_t begun_ns = wallTimeNs();
-  VIEWLOOM_RETURN_IF_ERROR(encoder_->encode(planes->video(), reference, access_unit_));
-  coded.help_ns = (encoder_->format().thread_count - 1) * (wallTimeNs() - begun_ns);
+  VIEWLOOM_RETURN_IF_ERROR(
+      (*encoder)->encode(planes->video(), referenceOf(coded.picture), access_unit_));
+  coded.help_ns = ((*encoder)->format().thread_count - 1) * (wallTimeNs() - begun_ns);
   planes = nullptr;
   // Sizes vary from frame to frame; powers of two let the pool's buffers settle after a few.
   BytePool::Buffer unit = bytes.take(std::bit_ceil(access_unit_.size()));
   unit->assign(access_unit_.begin(), access_unit_.end());
   coded.bytes = std::move(unit);
-  if (coded.picture + 1 == pictures_.size()) encoders.putBack(std::move(encoder_));
+  if (encoder_ && coded.picture + 1 == pictures_.size()) encoders.putBack(std::move(encoder_));
   std::lock_guard lock(mutex_);
   ++next_;
   is_coding_ = coded.is_next_ready = isNextReady();

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 #include "base/byte_pool.h"
 #include "display/video_stack.h"
 #include "encode/picture_planes.h"
+#include "encode/video_chain.h"
 #include "encode/video_encoders.h"
 
 namespace viewloom {
@@ -22,6 +24,14 @@ struct CodedPicture {
   int64_t help_ns = 0;
 };
 
+// Quantisation and references of an atlas.
+struct VideoStart {
+  uint32_t qp = 24;
+  // Encoders that coded the atlas before, and will code the next; nullptr = it is coded alone.
+  std::shared_ptr<VideoChain> chain = nullptr;
+  bool is_self_contained = true;  // of a chain: no picture refers to the atlas before
+};
+
 // Strips come in any order and from any thread. Pictures are coded one after the other, each once
 // all its rows are there and the one before it is coded.
 // Thread-safety: put() from any thread; codeNext() from one thread at a time, as its users are
@@ -31,7 +41,7 @@ class VideoAtlas {
   VideoAtlas(const VideoStack& stack, uint32_t qp);
 
   // To be called before the first rows are put.
-  void setQp(uint32_t qp) { qp_ = qp; }
+  void begin(VideoStart start) { start_ = std::move(start); }
   uint32_t pictureCount() const { return uint32_t(pictures_.size()); }
   // Rows of a picture, each once. True: codeNext() has to be called, by whoever is told.
   bool put(uint32_t picture, const BandPixels& rows, BytePool& pool);
@@ -47,11 +57,14 @@ class VideoAtlas {
   std::shared_ptr<PicturePlanes> planesOf(uint32_t picture, BytePool& pool);
   // With the lock.
   bool isNextReady() const;
+  absl::StatusOr<VideoEncoder*> encoderOf(uint32_t picture, VideoEncoders& encoders);
+  Reference referenceOf(uint32_t picture) const;
 
   const SizePx picture_px_;
-  uint32_t qp_;
-  std::unique_ptr<VideoEncoder> encoder_;  // from the first picture to the last; whose turn it is
-  std::vector<uint8_t> access_unit_;       // the same
+  VideoStart start_;
+  // From the first picture to the last; whose turn it is. Not of a chain.
+  std::unique_ptr<VideoEncoder> encoder_;
+  std::vector<uint8_t> access_unit_;  // whose turn it is
   std::mutex mutex_;
   std::vector<Picture> pictures_;
   uint32_t next_ = 0;  // picture to be coded

@@ -18,6 +18,10 @@ std::shared_ptr<DisplayCoding> codingOf(const EncodingSpec& encoding) {
   return adaptsQuality(encoding) ? std::make_shared<DisplayCoding>(encoding) : nullptr;
 }
 
+std::shared_ptr<AtlasChain> chainOf(const EncodingSpec& encoding) {
+  return isChained(encoding) ? std::make_shared<AtlasChain>() : nullptr;
+}
+
 }  // namespace
 
 struct Broadcaster::State {
@@ -104,7 +108,8 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
                               .encoding = encoding,
                               .picture_key = std::move(picture_key),
                               .eyes = std::move(eyes),
-                              .coding = codingOf(encoding)};
+                              .coding = codingOf(encoding),
+                              .chain = chainOf(encoding)};
   std::optional<State::Joined> joined;
   while (!joined) {
     absl::StatusOr<Seat> seat = state_->admit(display, key, *subscriber);
@@ -116,9 +121,10 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
   }
   auto subscription =
       std::make_unique<Subscription>(state_, *joined->display, joined->member->id());
-  if (joined->newest != nullptr) {
+  if (joined->newest != nullptr && joined->newest->reference_sequence == 0) {
     joined->member->offer(joined->newest);
   } else {
+    if (joined->newest != nullptr) joined->display->chain->wantAtOnce();
     state_->announce(stream);
   }
   if (joined->growing != nullptr) joined->member->begin(joined->growing);
@@ -234,10 +240,12 @@ uint64_t Broadcaster::atlasCount(uint64_t display_id) const {
   return found == nullptr ? 0 : found->atlas_count;
 }
 
-void Broadcaster::riseStanding(int64_t now_ns) {
+void Broadcaster::remakeStanding(int64_t now_ns) {
   std::set<std::string> streams;
   for (const ActiveDisplayPtr& display : displays("")) {
-    if (display->coding && display->coding->wantsFiner(now_ns)) streams.insert(display->stream);
+    const bool wants_finer = display->coding && display->coding->wantsFiner(now_ns);
+    const bool wants_again = display->chain && display->chain->wantsAgain(now_ns);
+    if (wants_finer || wants_again) streams.insert(display->stream);
   }
   for (const std::string& stream : streams) state_->announce(stream);
 }
@@ -261,24 +269,9 @@ Broadcaster::Subscription::Subscription(std::shared_ptr<State> state, const Acti
     : state_(std::move(state)),
       display_id_(display.id),
       subscriber_id_(subscriber_id),
-      coding_(display.coding) {
+      coding_(display.coding),
+      chain_(display.chain) {
   if (coding_) coding_->join(subscriber_id_);
-}
-
-void Broadcaster::Subscription::beginWrite(uint64_t bytes, int64_t now_ns) {
-  if (coding_) coding_->beginWrite(subscriber_id_, bytes, now_ns);
-}
-
-void Broadcaster::Subscription::endWrite(int64_t now_ns) {
-  if (coding_) coding_->endWrite(subscriber_id_, now_ns);
-}
-
-void Broadcaster::Subscription::endAtlas(int64_t now_ns) {
-  if (coding_) coding_->endAtlas(subscriber_id_, now_ns);
-}
-
-bool Broadcaster::Subscription::mayBegin(int64_t now_ns) const {
-  return !coding_ || coding_->mayBegin(subscriber_id_, now_ns);
 }
 
 Broadcaster::Subscription::~Subscription() {

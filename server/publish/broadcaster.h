@@ -14,6 +14,7 @@
 #include "base/status.h"
 #include "display/display_spec.h"
 #include "eye_poses/eye_track.h"
+#include "publish/atlas_chain.h"
 #include "publish/display_coding.h"
 #include "publish/subscriber.h"
 
@@ -29,6 +30,10 @@ struct ActiveDisplay {
   std::string picture_key;
   EyeTrackPtr eyes;                       // of a tracked display; else nullptr
   std::shared_ptr<DisplayCoding> coding;  // of video whose quality adapts; else nullptr
+  std::shared_ptr<AtlasChain> chain;      // of chained video; else nullptr
+
+  // Its newest atlas is to be made again, finer, or so that it needs no other.
+  bool isWantedAgain() const { return (coding && coding->isWanted()) || (chain && chain->isDue()); }
   uint32_t subscriber_count = 0;
   std::vector<Payer> viewers;  // of the subscribers, each once; they pay for it together
 };
@@ -52,7 +57,7 @@ class Broadcaster {
   class Subscription;
 
   // Joins or opens the display. A late joiner is offered the newest whole atlas at once, then told
-  // of the one that is being made.
+  // of the one that is being made. Where the newest needs another, one is made that does not.
   // A tracked display is this subscriber's alone, seen by `eyes`, which only such a display has.
   // RESOURCE_EXHAUSTED over a limit, or where the budget has no room; UNAVAILABLE while draining.
   absl::StatusOr<std::unique_ptr<Subscription>> subscribe(const std::string& stream,
@@ -95,9 +100,9 @@ class Broadcaster {
   // Atlases published for the display so far.
   uint64_t atlasCount(uint64_t display_id) const;
 
-  // To be called a few times a second: displays whose frames stand want their newest atlas again,
-  // at the finest quality (DisplayCoding::wantsFiner).
-  void riseStanding(int64_t now_ns);
+  // To be called a few times a second: displays whose frames stand may want their newest atlas
+  // again (DisplayCoding::wantsFiner, AtlasChain::wantsAgain).
+  void remakeStanding(int64_t now_ns);
 
   // Ends every subscriber with OK and refuses new ones.
   void drain();
@@ -115,16 +120,29 @@ class Broadcaster::Subscription {
 
   // Notes of what the subscriber's connection takes; see DisplayCoding. Nothing happens where the
   // quality of the display does not adapt.
-  void beginWrite(uint64_t bytes, int64_t now_ns);
-  void endWrite(int64_t now_ns);
-  void endAtlas(int64_t now_ns);
-  bool mayBegin(int64_t now_ns) const;
+  void beginWrite(uint64_t bytes, int64_t now_ns) {
+    if (coding_) coding_->beginWrite(subscriber_id_, bytes, now_ns);
+  }
+  void endWrite(int64_t now_ns) {
+    if (coding_) coding_->endWrite(subscriber_id_, now_ns);
+  }
+  void endAtlas(int64_t now_ns) {
+    if (coding_) coding_->endAtlas(subscriber_id_, now_ns);
+  }
+  bool mayBegin(int64_t now_ns) const {
+    return !coding_ || coding_->mayBegin(subscriber_id_, now_ns);
+  }
+  // The subscriber has fallen out of chained video: it waits for an atlas that needs no other.
+  void wantSelfContained() {
+    if (chain_) chain_->want();
+  }
 
  private:
   std::shared_ptr<State> state_;
   uint64_t display_id_;
   uint64_t subscriber_id_;
   std::shared_ptr<DisplayCoding> coding_;
+  std::shared_ptr<AtlasChain> chain_;
 };
 
 }  // namespace viewloom

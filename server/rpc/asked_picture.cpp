@@ -22,6 +22,11 @@ absl::Status AskedPicture::change(const v1::ChangeDisplay& request, const AtlasL
   return settleEncoding();
 }
 
+absl::Status AskedPicture::predictWithinAtlas() {
+  encoding_proto_.set_prediction(v1::PREDICTION_WITHIN_ATLAS);
+  return settleEncoding();
+}
+
 absl::Status AskedPicture::setDisplay(const v1::Display& proto, const AtlasLimits& limits) {
   absl::StatusOr<DisplaySpec> spec = displayFromProto(proto);
   absl::Status status = spec.status();

@@ -18,6 +18,9 @@ class AskedPicture {
   // Leaves what the request does not name as it was.
   absl::Status change(const v1::ChangeDisplay& request, const AtlasLimits& limits);
 
+  // From now on no atlas needs another, until a change says otherwise. Errors as of change().
+  absl::Status predictWithinAtlas();
+
   const DisplaySpec& display() const { return display_; }
   const EncodingSpec& encoding() const { return encoding_; }
 

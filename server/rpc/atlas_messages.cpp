@@ -211,7 +211,8 @@ grpc::ByteBuffer AtlasMessages::header() const {
   header.set_defaults_count(atlas_.taking.count);
   header.set_defaults_reason(reasonToProto(atlas_.taking.reason));
   header.set_timing(timingToProto(atlas_.timing));
-  header.set_discardable(true);  // atlases refer to no other
+  header.set_reference_sequence(atlas_.reference_sequence);
+  header.set_discardable(!isChained(atlas_.encoding));
   header.set_video_qp(atlas_.video_qp);
   for (const ViewsOutside& views : viewsOutside(atlas_.outside_shares)) {
     *header.add_views_outside() = outsideToProto(views);

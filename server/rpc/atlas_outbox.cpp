@@ -21,6 +21,7 @@ std::optional<grpc::ByteBuffer> AtlasAnnouncements::take(const EncodedAtlas& atl
 
 void AtlasOutbox::restart(std::shared_ptr<AtlasReader> reader) {
   close(false);
+  queue_.clear();
   reader_ = std::move(reader);
   begun_sequence_ = 0;  // of another display the sequence starts anew
   announcements_.restart();
@@ -34,33 +35,37 @@ void AtlasOutbox::begin(GrowingAtlasPtr atlas, size_t viewer_count) {
 void AtlasOutbox::offer(AtlasPtr atlas) {
   if (growing_ && growing_->atlas().sequence <= atlas->sequence) growing_.reset();
   if (atlas->sequence <= begun_sequence_) return;
-  if (std::exchange(whole_, std::move(atlas)) == nullptr) return;
-  announcements_.noteSkipped();
-  metrics_.replaced[HandOver::kGrpc].add();
+  const size_t missed_count = queue_.offer(std::move(atlas));
+  if (missed_count == 0) return;
+  announcements_.noteSkipped(missed_count);
+  metrics_.replaced[HandOver::kGrpc].add(double(missed_count));
 }
 
 void AtlasOutbox::close(bool is_draining) {
   growing_.reset();
-  if (!is_draining) whole_ = nullptr;
+  if (!is_draining) queue_.dropWaiting();
   if (sending_) sending_->giveUp();
 }
 
 bool AtlasOutbox::mayBegin() {
   if (count_ != 0 && sent_count_ >= count_) return false;
   if (growing_ && growing_->state() == GrowingAtlas::State::kAbandoned) growing_.reset();
-  return whole_ || (growing_ && growing_->mayBegin(reader_));
+  if (!queue_.isEmpty()) return true;
+  return growing_ && queue_.mayBeNext(growing_->atlas()) && growing_->mayBegin(reader_);
 }
 
 std::optional<grpc::ByteBuffer> AtlasOutbox::takeBefore(bool may_begin) {
   if (sending_ || !may_begin || !mayBegin()) return std::nullopt;
-  const EncodedAtlas& next = whole_ ? *whole_ : growing_->atlas();
+  const bool is_whole = !queue_.isEmpty();
+  const EncodedAtlas& next = is_whole ? queue_.front() : growing_->atlas();
   std::optional<grpc::ByteBuffer> message = announcements_.take(next);
   if (message) return message;
   begun_sequence_ = next.sequence;
   sent_poses_.note(next.sequence, next.eye_poses_time_ns);
-  if (whole_) {
-    sending_.emplace(std::make_shared<GrowingAtlas>(std::exchange(whole_, nullptr)));
+  if (is_whole) {
+    sending_.emplace(std::make_shared<GrowingAtlas>(queue_.take().atlas));
   } else {
+    queue_.noteTaken(next);
     sending_.emplace(*std::exchange(growing_, std::nullopt));
   }
   return std::nullopt;
@@ -75,6 +80,8 @@ std::optional<grpc::ByteBuffer> AtlasOutbox::take(bool may_begin) {
       if (sending_->wasWhole()) {
         ++sent_count_;
         metrics_.atlases_sent[Transport::kGrpc].add();
+      } else {
+        queue_.noteLost(sending_->atlas().sequence);
       }
       sending_.reset();
       has_ended_atlas_ = true;

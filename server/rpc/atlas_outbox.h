@@ -11,6 +11,7 @@
 
 #include "eye_poses/sent_poses.h"
 #include "metrics/metrics.h"
+#include "publish/atlas_queue.h"
 #include "rpc/atlas_messages.h"
 
 namespace viewloom {
@@ -18,8 +19,8 @@ namespace viewloom {
 // Announcements before an atlas: a new layout, or skipped atlases. Thread-safety: none.
 class AtlasAnnouncements {
  public:
-  // An atlas that the client will not get.
-  void noteSkipped() { ++skipped_count_; }
+  // So many atlases the client will not get.
+  void noteSkipped(uint64_t count) { skipped_count_ += count; }
   // The next atlas is of another display: its layout is announced anew.
   void restart() { layout_message_.clear(); }
   // The next message before this atlas; none = it may begin.
@@ -31,10 +32,10 @@ class AtlasAnnouncements {
   std::string layout_message_;                 // and how; empty = to be announced anew
 };
 
-// One atlas at a time, to its end. The newest whole one is next; where none waits, the one that is
-// being made, once its first band is packed. So no client gets an atlas later than if it were sent
-// whole, and no more than two atlases are held for one that is slow, beside the newest, which is
-// held for all.
+// One atlas at a time, to its end. The newest whole one is next, or those of chained video in
+// order; where none waits, the one that is being made, once its first band is packed. So no client
+// gets an atlas later than if it were sent whole, and no more than two atlases are held for one
+// that is slow, beside the newest, which is held for all; of chained video, what AtlasQueue holds.
 // Thread-safety: none.
 class AtlasOutbox {
  public:
@@ -58,6 +59,9 @@ class AtlasOutbox {
   bool hasMore() const { return sending_ && sending_->isReady(); }
   // The message that take() gave last was the last one of an atlas.
   bool hasEndedAtlas() const { return has_ended_atlas_; }
+  // The client has fallen out of chained video: see AtlasQueue.
+  bool isStuck() const { return queue_.isStuck(); }
+  uint64_t fallOutCount() const { return queue_.fallOutCount(); }
   // All that are wanted were written.
   bool isThrough() const { return count_ != 0 && sent_count_ == count_; }
 
@@ -72,8 +76,8 @@ class AtlasOutbox {
   uint32_t count_ = 0;
   uint64_t sent_count_ = 0;      // atlases written, or being written, whole
   uint64_t begun_sequence_ = 0;  // of the last that was begun to be written
-  AtlasPtr whole_;               // the newest that waits
-  // The same, unless it is whole or being written.
+  AtlasQueue queue_;             // whole ones that wait
+  // The newest, unless it is whole or being written.
   std::optional<AtlasMessages> growing_;
   std::optional<AtlasMessages> sending_;
   AtlasAnnouncements announcements_;

@@ -74,7 +74,8 @@ v1::AtlasEncoding encodingToProto(const EncodingSpec& encoding) {
   proto.set_with_mask(encoding.with_mask);
   proto.set_planes(bandEncodingToProto(encoding.planes));
   if (encoding.color != BandEncoding::kH264) return proto;
-  proto.set_prediction(v1::PREDICTION_WITHIN_ATLAS);
+  proto.set_prediction(isChained(encoding) ? v1::PREDICTION_ACROSS_ATLASES
+                                           : v1::PREDICTION_WITHIN_ATLAS);
   proto.set_video_qp(encoding.video_qp);
   proto.set_bits_per_second_max(encoding.bits_per_second_max);
   return proto;

@@ -51,7 +51,7 @@ grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>* DisplayService::Str
 }
 
 void DisplayService::tick(uint32_t unread_ticks_max) {
-  parts_.broadcaster.riseStanding(parts_.clock.nowNs());
+  parts_.broadcaster.remakeStanding(parts_.clock.nowNs());
   calls_.forEach([unread_ticks_max](WatchCall& call) {
     call.tick();
     call.cutIfUnread(unread_ticks_max);

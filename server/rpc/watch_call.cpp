@@ -16,6 +16,7 @@ namespace viewloom {
 
 absl::Status WatchCall::handleMessage(grpc::ByteBuffer& bytes) {
   const int64_t received_ns = parts_.clock.nowNs();
+  std::lock_guard seat_lock(seat_mutex_);
   v1::StreamAtlasesRequest request;
   VIEWLOOM_RETURN_IF_ERROR(parseMessage(bytes, request, kDisplayRequestBytesMax));
   const bool opens = request.message_case() == v1::StreamAtlasesRequest::kOpen;
@@ -233,6 +234,7 @@ std::optional<grpc::ByteBuffer> WatchCall::takeMessage() {
 
 std::optional<grpc::ByteBuffer> WatchCall::takeOfAtlas() {
   const int64_t now_ns = parts_.clock.nowNs();
+  if (subscription_ && outbox_.isStuck()) subscription_->wantSelfContained();
   const bool has_budget = !subscription_ || subscription_->mayBegin(now_ns);
   std::optional<grpc::ByteBuffer> message =
       outbox_.take((!ending() || draining_) && (has_budget || draining_));
@@ -249,8 +251,24 @@ std::optional<grpc::ByteBuffer> WatchCall::takeHeartbeat() {
   return bytesFromMessage(response);
 }
 
+absl::Status WatchCall::leaveChainIfLost() {
+  const std::unique_lock seat_lock(seat_mutex_, std::try_to_lock);
+  if (!seat_lock.owns_lock()) return absl::OkStatus();  // a message is handled; the next tick looks
+  {
+    std::lock_guard lock(mutex_);
+    const uint64_t count = outbox_.fallOutCount();
+    if (!subscription_ || ending() || !fall_outs_.areTooMany(count, parts_.clock.nowNs())) {
+      return absl::OkStatus();
+    }
+  }
+  fall_outs_ = {};
+  VIEWLOOM_RETURN_IF_ERROR(asked_.predictWithinAtlas());
+  return takeSeat("open.display");
+}
+
 void WatchCall::tick() {
   if (const absl::Status status = caller_.tick(); !status.ok()) end(status);
+  if (const absl::Status status = leaveChainIfLost(); !status.ok()) end(status);
   std::lock_guard lock(mutex_);
   if (ending()) return;
   if (wants_heartbeats_ && told_.reaches(kHeartbeatTicks)) heartbeat_is_due_ = true;

@@ -14,6 +14,7 @@
 #include "eye_poses/eye_track.h"
 #include "metrics/metrics.h"
 #include "publish/broadcaster.h"
+#include "publish/fall_outs.h"
 #include "publish/stream_directory.h"
 #include "rpc/asked_picture.h"
 #include "rpc/atlas_outbox.h"
@@ -50,8 +51,9 @@ class WatchCall final : public BidiCall {
   const std::string& identity() const { return identity_; }
   // UNAVAILABLE for a call that was never opened; the broadcaster ends the others.
   void endUnlessWatching();
-  // To be called every kTick: sends heartbeats to a client that wants them, and ends the call of a
-  // client whose identity does not hold any more.
+  // To be called every kTick: sends heartbeats to a client that wants them, ends the call of a
+  // client whose identity does not hold any more, and moves one that keeps falling out of chained
+  // video to atlases that need no other.
   void tick();
 
  private:
@@ -74,6 +76,7 @@ class WatchCall final : public BidiCall {
   void noteProbe(const v1::ClockProbe& probe, int64_t received_ns);
   DisplayUse displayUse() const;
   absl::Status takeSeat(const std::string& field);
+  absl::Status leaveChainIfLost();
 
   void leave(std::unique_ptr<Broadcaster::Subscription> subscription);
   void begin(uint64_t seat_number, GrowingAtlasPtr atlas);
@@ -88,7 +91,10 @@ class WatchCall final : public BidiCall {
   LiveCaller caller_;
   const std::string identity_;
 
-  // Used only by the reads.
+  // Held by the reads while they handle a message, and by ticks that take a seat. Guards what
+  // follows. Before mutex_.
+  std::mutex seat_mutex_;
+  FallOuts fall_outs_;
   std::string stream_;  // empty before the call was opened
   AskedPicture asked_;
   EyeTrackPtr eyes_;  // while the display is tracked; a changed one is seen by the same eyes

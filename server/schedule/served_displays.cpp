@@ -31,9 +31,9 @@ UnservedDisplays ServedDisplays::find(const AtlasJob& job) {
     const bool have_eyes_moved = display->eyes && unserved.eyes != display->eyes->used();
     const Served& served = served_[display->id];
     const bool is_newer = serial > served.serial && !job.is_for_eyes;
-    const bool is_wanted_finer = display->coding && display->coding->isWanted();
-    const bool has_moved = serial == served.serial &&
-                           (have_eyes_moved || hasMoved(job, served.shown) || is_wanted_finer);
+    const bool has_moved =
+        serial == served.serial &&
+        (have_eyes_moved || hasMoved(job, served.shown) || display->isWantedAgain());
     if (!is_newer && !has_moved) continue;
     unserved.displays.push_back(display);
   }

@@ -26,7 +26,7 @@ class ServedDisplays {
   explicit ServedDisplays(const Broadcaster& broadcaster) : broadcaster_(broadcaster) {}
 
   // The displays of the picture that have not got this structure, or a newer one; or have got it,
-  // but not as the newest eyes see it, or not from where its camera is by now, or want it finer.
+  // but not as the newest eyes see it, or not from where its camera is by now, or want it again.
   // A structure that they have not got comes with a job of its own.
   UnservedDisplays find(const AtlasJob& job);
   // From now on these have got what the job shows.

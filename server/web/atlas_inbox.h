@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The newest atlas of a display, kept for one reader until it is ready for it.
+// Newest atlas of a display, or those of chained video, kept for one reader until it is ready.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 
 #include "access/quota_ledger.h"
 #include "base/clock.h"
-#include "base/latest_mailbox.h"
 #include "metrics/metrics.h"
+#include "publish/atlas_queue.h"
 #include "publish/subscriber.h"
 
 namespace viewloom {
@@ -20,10 +20,7 @@ namespace viewloom {
 // Thread-safety: all methods may be called from any thread; none blocks on anything but the lock.
 class AtlasInbox final : public Subscriber {
  public:
-  struct Arrival {
-    AtlasPtr atlas;
-    int64_t arrived_ns = 0;
-  };
+  using Arrival = AtlasQueue::Waiting;
 
   // `on_change` is called, without a lock held, whenever there is something new to take or to
   // learn. `identity`: see Subscriber. `quota`: of the reader, for this display; null = none.
@@ -41,7 +38,12 @@ class AtlasInbox final : public Subscriber {
 
   void offer(AtlasPtr atlas) override {
     if (quota_) quota_->noteAtlas(atlas->sequence, atlas->layout->size_px.area());
-    if (mailbox_.push({std::move(atlas), clock_.nowNs()})) replaced_.add();
+    {
+      std::lock_guard lock(mutex_);
+      const size_t missed_count = queue_.offer(std::move(atlas), clock_.nowNs());
+      replaced_count_ += missed_count;
+      if (missed_count > 0) replaced_.add(double(missed_count));
+    }
     on_change_();
   }
   void end(const absl::Status& status) override {
@@ -52,15 +54,31 @@ class AtlasInbox final : public Subscriber {
     on_change_();
   }
 
-  // Empties the slot.
-  std::optional<Arrival> take() { return mailbox_.take(); }
+  // The next; none = nothing waits.
+  std::optional<Arrival> take() {
+    std::lock_guard lock(mutex_);
+    if (queue_.isEmpty()) return std::nullopt;
+    return queue_.take();
+  }
+  // The reader has fallen out of chained video, and how often so far: see AtlasQueue.
+  bool isStuck() const {
+    std::lock_guard lock(mutex_);
+    return queue_.isStuck();
+  }
+  uint64_t fallOutCount() const {
+    std::lock_guard lock(mutex_);
+    return queue_.fallOutCount();
+  }
   // Set once nothing will come any more.
   std::optional<absl::Status> ended() const {
     std::lock_guard lock(mutex_);
     return ended_;
   }
-  // Atlases that a newer one replaced before they were taken.
-  uint64_t replacedCount() const { return mailbox_.replacedCount(); }
+  // Atlases that a newer one replaced before they were taken, or that the reader could not decode.
+  uint64_t replacedCount() const {
+    std::lock_guard lock(mutex_);
+    return replaced_count_;
+  }
 
  private:
   const Clock& clock_;
@@ -68,8 +86,9 @@ class AtlasInbox final : public Subscriber {
   const std::function<void()> on_change_;
   const std::string identity_;
   const QuotaPartPtr quota_;
-  LatestMailbox<Arrival> mailbox_;
-  mutable std::mutex mutex_;  // of ended_
+  mutable std::mutex mutex_;  // guards what follows
+  AtlasQueue queue_;
+  uint64_t replaced_count_ = 0;
   std::optional<absl::Status> ended_;
 };
 

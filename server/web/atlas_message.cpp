@@ -124,6 +124,7 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
                  {"shown_ns", delivery.shown_ns}};
   if (isVideo(atlas)) {
     header["video_qp"] = atlas.video_qp;
+    header["reference_sequence"] = atlas.reference_sequence;
     for (const SharedBytes& picture : colorBands(atlas)) {
       header["picture_bytes"].push_back(picture->size());
     }

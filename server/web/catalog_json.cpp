@@ -90,7 +90,8 @@ json encodingJson(const EncodingSpec& encoding) {
     return {{"color", "H264"},
             {"jpeg_quality", encoding.jpeg_quality},
             {"video_qp", encoding.video_qp},
-            {"bits_per_second_max", encoding.bits_per_second_max}};
+            {"bits_per_second_max", encoding.bits_per_second_max},
+            {"prediction", isChained(encoding) ? "ACROSS_ATLASES" : "WITHIN_ATLAS"}};
   }
   return {{"jpeg_quality", encoding.jpeg_quality},
           {"chroma", encoding.chroma == Chroma::k444 ? "444" : "420"}};

@@ -4,11 +4,11 @@
 #include <new>
 
 #include "admission/request_boundary.h"
-#include "base/printable.h"
 #include "messages/message_from_json.h"
 #include "viewloom/v1/web_socket.pb.h"
 #include "web/admission.h"
 #include "web/atlas_message.h"
+#include "web/close_reason.h"
 #include "web/http_reply.h"
 #include "web/once_ended.h"
 
@@ -17,8 +17,6 @@ namespace {
 
 // One being shown while the next is on its way.
 constexpr size_t kUnderWayCountMax = 2;
-// A close frame holds 125 bytes, two of them the code.
-constexpr size_t kCloseReasonBytesMax = 123;
 
 }  // namespace
 
@@ -219,6 +217,7 @@ net::awaitable<void> Viewer::writeUntilEnd() {
       co_await writeText(*std::move(text), error);
       continue;
     }
+    followChain();
     std::optional<absl::Status> ended = failure_ ? failure_ : inbox_->ended();
     if (absl::Status status = caller_.recheck(); !ended && !status.ok()) ended = std::move(status);
     if (leaving_) ended = absl::OkStatus();
@@ -237,6 +236,16 @@ net::awaitable<void> Viewer::writeUntilEnd() {
     awake_.expires_after(kRecheckInterval);
     co_await awake_.async_wait(into(woken));
   }
+}
+
+void Viewer::followChain() {
+  if (!subscription_) return;
+  if (inbox_->isStuck()) subscription_->wantSelfContained();
+  if (!fall_outs_.areTooMany(inbox_->fallOutCount(), context_.clock.nowNs())) return;
+  fall_outs_ = {};
+  AskedDisplay changed = asked_;
+  changed.encoding.set_prediction(v1::PREDICTION_WITHIN_ATLAS);
+  if (absl::Status status = subscribe(changed); !status.ok()) failure_ = std::move(status);
 }
 
 void Viewer::beginOfWrite() {
@@ -280,13 +289,7 @@ net::awaitable<void> Viewer::writeAtlas(AtlasInbox::Arrival arrival, ErrorCode& 
 
 net::awaitable<void> Viewer::close(const absl::Status& status) {
   subscription_.reset();
-  websocket::close_reason reason(websocket::close_code::going_away);
-  if (!status.ok()) {
-    reason.code = absl::IsInternal(status) ? websocket::close_code::internal_error
-                                           : websocket::close_code::policy_error;
-    const std::string message(status.message());
-    reason.reason = std::string(wholeCharacters(message, kCloseReasonBytesMax));
-  }
+  const websocket::close_reason reason = closeReason(status);
   ErrorCode error;
   beginOfWrite();
   co_await socket_.async_close(reason, into(error));

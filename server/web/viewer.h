@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "publish/fall_outs.h"
 #include "web/asio.h"
 #include "web/asked_display.h"
 #include "web/atlas_inbox.h"
@@ -66,6 +67,9 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   absl::Status takeMessage(std::string_view text);
   absl::Status change(const v1::ChangeDisplay& changes);
   void noteShown(uint64_t delivery);
+  // Asks for what the client needs where it has fallen out of chained video. One that keeps falling
+  // out is moved to atlases that need no other.
+  void followChain();
   void wake() { awake_.cancel(); }
 
   WebContext& context_;
@@ -84,6 +88,7 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   std::deque<UnderWay> under_way_;
   std::optional<absl::Status> failure_;  // INTERNAL: the session ends
   TextReplies replies_;
+  FallOuts fall_outs_;
   uint64_t change_count_ = 0;  // asked for, also in vain
   uint64_t delivery_count_ = 0;
   uint64_t dropped_before_ = 0;  // by the displays watched earlier

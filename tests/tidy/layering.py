@@ -10,6 +10,7 @@ import re
 from tree import Finding
 
 BAND = "encode/encoded_band.h"
+CHAIN = "encode/video_chain.h"
 SHADERS_SHARED = "shaders/shared"
 ENGINE = "engine/engine.h"
 WALK = "engine/walk"
@@ -68,7 +69,8 @@ LAYERS = {
                       ["absl", "jpeg", "png", "zlib", "zstd"]),
     # Poses come in as frames do.
     "server/eye_poses": (["base", "display"], []),
-    "server/publish": (["base", "frame", "display", "admission", "eye_poses", BAND], ["absl"]),
+    "server/publish": (["base", "frame", "display", "admission", "eye_poses", BAND, CHAIN],
+                       ["absl"]),
     # Decides what to render when. It has no threads (schedule_rules.py); the pipeline has them.
     "server/schedule": (["base", "frame", "display", "picture", "eye_poses", "temporal", "publish"],
                         ["absl"]),

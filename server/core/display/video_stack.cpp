@@ -107,9 +107,12 @@ uint64_t videoEncoderBytes(SizePx picture_px) {
   return kAlways_bytes + kPixel_bytes * picture_px.area();
 }
 
+uint64_t videoPicturesBytes(const VideoStack& stack) {
+  return stack.pictureSize().area() * stack.picture_count * 3 / 2;
+}
+
 uint64_t videoAtlasBytes(const VideoStack& stack) {
-  const SizePx picture_px = stack.pictureSize();
-  return videoEncoderBytes(picture_px) + picture_px.area() * stack.picture_count * 3 / 2;
+  return videoEncoderBytes(stack.pictureSize()) + videoPicturesBytes(stack);
 }
 
 }  // namespace viewloom

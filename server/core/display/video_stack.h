@@ -51,7 +51,9 @@ absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count,
 
 // Memory that an encoder of such pictures takes, bytes; within a tenth.
 uint64_t videoEncoderBytes(SizePx picture_px);
-// Memory of an atlas on its way into video: its encoder, and pictures that wait for that.
+// Memory of the pictures of an atlas that wait to be coded.
+uint64_t videoPicturesBytes(const VideoStack& stack);
+// The same with an encoder.
 uint64_t videoAtlasBytes(const VideoStack& stack);
 
 }  // namespace viewloom

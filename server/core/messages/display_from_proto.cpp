@@ -218,14 +218,10 @@ constexpr EnumRow<v1::ChromaSubsampling, Chroma> kChromas[] = {
     {v1::CHROMA_SUBSAMPLING_420, Chroma::k420},
     {v1::CHROMA_SUBSAMPLING_444, Chroma::k444}};
 
-// Whether pictures refer to those of other atlases.
-constexpr EnumRow<v1::Prediction, bool> kPredictions[] = {{v1::PREDICTION_UNSPECIFIED, false},
-                                                          {v1::PREDICTION_WITHIN_ATLAS, false}};
-
-// Refuses fields of the protocol that this server does not serve.
-absl::Status refuseUnserved(const v1::AtlasEncoding& proto) {
-  return enumFromProto(proto.prediction(), "prediction", kPredictions).status();
-}
+constexpr EnumRow<v1::Prediction, Prediction> kPredictions[] = {
+    {v1::PREDICTION_UNSPECIFIED, Prediction::kWithinAtlas},
+    {v1::PREDICTION_WITHIN_ATLAS, Prediction::kWithinAtlas},
+    {v1::PREDICTION_ACROSS_ATLASES, Prediction::kAcrossAtlases}};
 
 // A quantisation that is given alone stays.
 void setQuality(const v1::AtlasEncoding& proto, EncodingSpec& encoding) {
@@ -249,7 +245,6 @@ absl::StatusOr<DisplaySpec> displayFromProto(const v1::Display& proto) {
 
 absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
                                                const DisplaySpec& display) {
-  VIEWLOOM_RETURN_IF_ERROR(refuseUnserved(proto));
   EncodingSpec encoding;
   const auto color = enumFromProto(proto.color(), "color", kColorEncodings);
   VIEWLOOM_RETURN_IF_ERROR(color.status());
@@ -257,6 +252,9 @@ absl::StatusOr<EncodingSpec> encodingFromProto(const v1::AtlasEncoding& proto,
   VIEWLOOM_RETURN_IF_ERROR(chroma.status());
   const auto planes = enumFromProto(proto.planes(), "planes", kPlaneEncodings);
   VIEWLOOM_RETURN_IF_ERROR(planes.status());
+  const auto prediction = enumFromProto(proto.prediction(), "prediction", kPredictions);
+  VIEWLOOM_RETURN_IF_ERROR(prediction.status());
+  encoding.prediction = *prediction;
   encoding.color = *color;
   encoding.chroma = *chroma;
   const bool has_channels = tileGridOf(display).rays_per_px > 1;  // shared chroma would mix them

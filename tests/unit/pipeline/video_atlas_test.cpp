@@ -97,6 +97,53 @@ TEST_F(VideoAtlasTest, countsTheThreadsThatHelp) {
   EXPECT_GT(coded->help_ns, 0);
 }
 
+class ChainedVideoTest : public VideoAtlasTest {
+ protected:
+  // The access units of an atlas, whose pictures are those of `seed`.
+  std::vector<std::vector<uint8_t>> code(uint32_t seed, bool is_self_contained, uint32_t qp = 24) {
+    VideoAtlas atlas(kStack, 24);
+    atlas.begin({.qp = qp, .chain = chain_, .is_self_contained = is_self_contained});
+    std::vector<std::vector<uint8_t>> units;
+    for (uint32_t picture = 0; picture < 3; ++picture) {
+      EXPECT_TRUE(atlas.put(picture, Picture(kPicture_px, seed + picture).band(0, 48), planes_));
+      const auto coded = atlas.codeNext(encoders_, bytes_);
+      EXPECT_TRUE(coded.ok()) << coded.status();
+      units.push_back(*coded->bytes);
+    }
+    return units;
+  }
+
+  const std::shared_ptr<VideoChain> chain_ = std::make_shared<VideoChain>();
+};
+
+bool isIdr(const std::vector<uint8_t>& unit) {
+  return nalUnits(unit).back().type() == NalType::kIdrSlice;
+}
+
+TEST_F(ChainedVideoTest, makesAStreamOfEachPicture) {
+  std::vector<std::unique_ptr<OpenH264Decoder>> decoders;
+  for (int i = 0; i < 3; ++i) decoders.push_back(*OpenH264Decoder::make());
+  for (const bool is_self_contained : {true, false, false, true, false}) {
+    const auto units = code(1, is_self_contained);
+    for (size_t picture = 0; picture < 3; ++picture) {
+      EXPECT_EQ(isIdr(units[picture]), is_self_contained);
+      EXPECT_TRUE(decoders[picture]->decode(units[picture], kPicture_px).ok());
+    }
+  }
+}
+
+TEST_F(ChainedVideoTest, takesFewBytesOfAPictureThatStands) {
+  const size_t alone = code(1, true)[1].size();
+  EXPECT_LT(code(1, false)[1].size(), alone / 10);
+  EXPECT_GT(code(7, false)[1].size(), alone / 10) << "another one";
+}
+
+TEST_F(ChainedVideoTest, changesTheQuantisationBetweenAtlases) {
+  code(1, true, 40);
+  EXPECT_FALSE(isIdr(code(1, false, 22)[0]));
+  EXPECT_LT(code(2, false, 44)[0].size(), code(3, false, 22)[0].size());
+}
+
 TEST_F(VideoAtlasTest, takesRowsFromSeveralThreads) {
   std::atomic<int> told_count = 0;
   {

@@ -57,14 +57,14 @@ TEST(AdaptingDisplay, asksForItsAtlasAgainOnceFramesStand) {
   coding->noteCoded(coding->beginAtlas(0), 500'000);
   readSlowly(*slow, 0);
   EXPECT_EQ(coding->beginAtlas(1000 * kMs), 40u);
-  broadcaster.riseStanding(1200 * kMs);
+  broadcaster.remakeStanding(1200 * kMs);
   EXPECT_THAT(demands, testing::IsEmpty());
-  broadcaster.riseStanding(3500 * kMs);
+  broadcaster.remakeStanding(3500 * kMs);
   EXPECT_THAT(demands, testing::ElementsAre("s"));
-  broadcaster.riseStanding(4000 * kMs);
+  broadcaster.remakeStanding(4000 * kMs);
   EXPECT_THAT(demands, testing::ElementsAre("s")) << "it has not begun yet";
   EXPECT_EQ(coding->beginAtlas(4100 * kMs), 24u);
-  broadcaster.riseStanding(20'000 * kMs);
+  broadcaster.remakeStanding(20'000 * kMs);
   EXPECT_THAT(demands, testing::ElementsAre("s")) << "it is the finest";
 }
 

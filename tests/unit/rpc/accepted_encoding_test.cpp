@@ -123,9 +123,22 @@ TEST(AcceptedEncoding, namesTheFieldOfAWrongEncoding) {
   EXPECT_EQ(fieldOf(chooseEncoding(asked, {}, displayOf("portrait")).status()),
             "encoding.video_qp");
   asked.clear_video_qp();
+}
+
+TEST(AcceptedEncoding, chainsAtlasesWhereThatIsAskedFor) {
+  v1::AtlasEncoding asked;
+  asked.set_color(v1::BAND_ENCODING_H264);
+  EXPECT_FALSE(isChained(*chooseEncoding(asked, {}, displayOf("portrait"))));
   asked.set_prediction(v1::PREDICTION_ACROSS_ATLASES);
-  EXPECT_EQ(chooseEncoding(asked, {}, displayOf("portrait")).status().code(),
-            absl::StatusCode::kUnimplemented);
+  EXPECT_TRUE(isChained(*chooseEncoding(asked, {}, displayOf("portrait"))));
+  asked.set_color(v1::BAND_ENCODING_JPEG);
+  EXPECT_FALSE(isChained(*chooseEncoding(asked, {}, displayOf("portrait"))));
+  // Pictures of chained atlases are larger: 3360x1120 px of a Portrait.
+  asked.clear_color();
+  AcceptedEncodings accepted = accepting({v1::BAND_ENCODING_H264, v1::BAND_ENCODING_ZSTD});
+  EXPECT_TRUE(isChained(*chooseEncoding(asked, accepted, displayOf("portrait"))));
+  accepted[0].mutable_picture_size_max()->set_width(1920);
+  EXPECT_EQ(chooseEncoding(asked, accepted, displayOf("portrait"))->color, BandEncoding::kZstd);
 }
 
 }  // namespace

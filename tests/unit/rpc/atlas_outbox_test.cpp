@@ -42,6 +42,12 @@ class AtlasOutboxTest : public testing::Test {
     return std::make_shared<EncodedAtlas>(std::move(atlas));
   }
 
+  AtlasPtr chained(uint64_t sequence, uint64_t reference) const {
+    EncodedAtlas atlas = *whole(sequence);
+    atlas.reference_sequence = reference;
+    return std::make_shared<EncodedAtlas>(std::move(atlas));
+  }
+
   GrowingAtlasPtr grow(uint64_t sequence) {
     auto growing = std::make_shared<GrowingAtlas>(begun(sequence));
     outbox_.begin(growing, 1);
@@ -116,6 +122,55 @@ TEST_F(AtlasOutboxTest, finishesTheOlderAtlasOfAClientThatIsSlow) {
   complete(*newest);
   EXPECT_EQ(written(), "be");
   EXPECT_EQ(metrics_.replaced[HandOver::kGrpc].value(), 2);
+}
+
+TEST_F(AtlasOutboxTest, writesAllChainedAtlasesInOrder) {
+  outbox_.offer(chained(1, 0));
+  EXPECT_EQ(written(2), "Lh1");
+  for (uint64_t sequence = 2; sequence <= 4; ++sequence) {
+    outbox_.offer(chained(sequence, sequence - 1));
+  }
+  EXPECT_EQ(written(), "bbeh2bbeh3bbeh4bbe");
+  EXPECT_FALSE(outbox_.isStuck());
+}
+
+TEST_F(AtlasOutboxTest, writesNothingThatRefersToAnAtlasThatTheClientHasNotGot) {
+  outbox_.offer(chained(3, 2));
+  EXPECT_EQ(written(), "");
+  EXPECT_TRUE(outbox_.isStuck());
+  outbox_.offer(chained(4, 0));
+  EXPECT_FALSE(outbox_.isStuck());
+  EXPECT_EQ(written(), "Lh4bbe") << "one that joins skips nothing";
+  outbox_.offer(chained(6, 5));
+  outbox_.offer(chained(7, 0));
+  EXPECT_EQ(written(), "S1h7bbe");
+  EXPECT_EQ(outbox_.fallOutCount(), 1u);
+  EXPECT_EQ(metrics_.replaced[HandOver::kGrpc].value(), 1);
+}
+
+TEST_F(AtlasOutboxTest, beginsAChainedAtlasThatIsBeingMadeOnlyBehindItsReference) {
+  const auto growAfter = [&](uint64_t sequence, uint64_t reference) {
+    EncodedAtlas atlas = begun(sequence);
+    atlas.reference_sequence = reference;
+    auto growing = std::make_shared<GrowingAtlas>(std::move(atlas));
+    outbox_.begin(growing, 1);
+    growing->put(0, someBytes());
+    return growing;
+  };
+  const GrowingAtlasPtr first = growAfter(2, 1);
+  EXPECT_EQ(written(), "");
+  complete(*first);
+  EXPECT_TRUE(outbox_.isStuck());
+  const GrowingAtlasPtr second = growAfter(3, 0);
+  EXPECT_EQ(written(), "Lh3b");
+  EXPECT_FALSE(outbox_.isStuck());
+  complete(*second);
+  const GrowingAtlasPtr third = growAfter(4, 3);
+  EXPECT_EQ(written(), "beh4b");
+  third->abandon();
+  EXPECT_EQ(written(), "a");
+  outbox_.offer(chained(5, 4));
+  EXPECT_EQ(written(), "") << "the client has not got 4";
 }
 
 TEST_F(AtlasOutboxTest, writesTheNewestWholeAtlasBeforeOneThatIsBeingMade) {

@@ -6,6 +6,8 @@
 #include <atomic>
 #include <thread>
 
+#include "unit/publish/chained_atlases.h"
+
 namespace viewloom::atlas_inbox_test {
 namespace {
 
@@ -34,6 +36,21 @@ TEST(AtlasInbox, keepsTheNewestAndCountsTheRest) {
   EXPECT_EQ(inbox.replacedCount(), 2u);
   EXPECT_EQ(metrics.replaced[HandOver::kWeb].value(), 2);
   EXPECT_EQ(change_count, 3);
+}
+
+TEST(AtlasInbox, keepsChainedAtlasesInOrder) {
+  ManualClock clock;
+  Metrics metrics;
+  AtlasInbox inbox(clock, metrics.replaced[HandOver::kWeb], [] {});
+  inbox.offer(test::chainedAtlas(1, 0));
+  inbox.offer(test::chainedAtlas(2, 1));
+  inbox.offer(test::chainedAtlas(4, 3));
+  EXPECT_TRUE(inbox.isStuck());
+  EXPECT_EQ(inbox.fallOutCount(), 1u);
+  EXPECT_EQ(inbox.replacedCount(), 1u);
+  EXPECT_EQ(inbox.take()->atlas->sequence, 1u);
+  EXPECT_EQ(inbox.take()->atlas->sequence, 2u);
+  EXPECT_FALSE(inbox.take());
 }
 
 TEST(AtlasInbox, tellsHowItEnded) {
