@@ -103,7 +103,8 @@ absl::Status writeDepthCodes(const Atlas& atlas, const AtlasFileOptions& options
   return absl::OkStatus();
 }
 
-absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options, const Save& save) {
+absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options, ColorDecoder& decoder,
+                        const Save& save) {
   if (atlas.layout->depth_codes().bits() == 16) return writeDepthCodes(atlas, options, save);
   const char* const kind = atlas.layout->has_depth_codes() ? "_rgbd" : "";
   const std::string whole = atlas.layout->suffix() + kind;
@@ -113,7 +114,7 @@ absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options, con
     if (!jpeg.ok()) return jpeg.status();
     return save(whole + ".jpg", *jpeg);
   }
-  const absl::StatusOr<AtlasPicture> picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
+  const absl::StatusOr<AtlasPicture> picture = decoder.decode(atlas);
   if (!picture.ok()) return picture.status();
   // No usual JPEG keeps neighbouring subpixels of a panel apart, which different eyes see. Panels
   // are the displays with a cone whose picture is one view, not a quilt.
@@ -127,8 +128,9 @@ absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options, con
   return absl::OkStatus();
 }
 
-absl::Status writeAtlas(const Atlas& atlas, const AtlasFileOptions& options, const Save& save) {
-  VIEWLOOM_RETURN_IF_ERROR(writeColor(atlas, options, save));
+absl::Status writeAtlas(const Atlas& atlas, const AtlasFileOptions& options, ColorDecoder& decoder,
+                        const Save& save) {
+  VIEWLOOM_RETURN_IF_ERROR(writeColor(atlas, options, decoder, save));
   if (!atlas.layout->encoding().with_mask()) return absl::OkStatus();
   const absl::StatusOr<AtlasPicture> mask = decodePlane(atlas, v1::ATLAS_PLANE_MASK);
   if (!mask.ok()) return mask.status();
@@ -191,7 +193,7 @@ absl::StatusOr<AtlasFiles::Written> AtlasFiles::write(const Atlas& atlas) {
       if (written.count++ == 0) written.first = path;
       return absl::OkStatus();
     };
-    const absl::Status status = writeAtlas(atlas, options_, save);
+    const absl::Status status = writeAtlas(atlas, options_, decoder_, save);
     if (status.ok()) return written;
     // Somebody else writes the same names into the folder.
     if (!absl::IsAlreadyExists(status)) return status;

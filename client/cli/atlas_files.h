@@ -8,6 +8,7 @@
 
 #include "base/status.h"
 #include "lib/atlas.h"
+#include "lib/color_decoder.h"
 
 namespace viewloom::cli {
 
@@ -40,6 +41,7 @@ class AtlasFiles {
   std::filesystem::path stemOf(const v1::AtlasHeader& header) const;
 
   const AtlasFileOptions options_;
+  ColorDecoder decoder_;
   const std::string name_;  // the stream's, fit for files
   uint64_t run_ = 1;
   uint64_t last_sequence_ = 0;

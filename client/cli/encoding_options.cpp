@@ -37,6 +37,10 @@ void addEncodingOptions(const usage::Command& app, EncodingOptions& options) {
           .excludes(full)
           .excludes(lossless)
           .group(kEncodingGroup);
+  app.addFlag("--chained", options.is_chained,
+              "Let each picture of video refer to the one before: half the bytes of a still camera")
+      .needs(h264)
+      .group(kEncodingGroup);
   app.add("--mbit-max", options.mbit_max,
           "Most Mbit/s of video, 1 to 10000; without it, as many as the line takes")
       .valueName("N")
@@ -64,6 +68,7 @@ absl::StatusOr<v1::AtlasEncoding> makeEncoding(const EncodingOptions& options) {
   if (options.is_444) encoding.set_color(v1::BAND_ENCODING_JPEG);
   if (options.is_h264) encoding.set_color(v1::BAND_ENCODING_H264);
   encoding.set_jpeg_quality(options.jpeg_quality);
+  if (options.is_chained) encoding.set_prediction(v1::PREDICTION_ACROSS_ATLASES);
   encoding.set_bits_per_second_max(uint64_t{options.mbit_max} * kMbit);
   if (options.is_444) encoding.set_chroma(v1::CHROMA_SUBSAMPLING_444);
   encoding.set_with_mask(options.has_mask);

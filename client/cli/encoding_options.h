@@ -17,7 +17,8 @@ struct EncodingOptions {
   bool is_444 = false;
   bool is_lossless = false;
   bool is_h264 = false;
-  uint32_t mbit_max = 0;  // a second, of H.264; 0 = as many as the line takes
+  bool is_chained = false;  // each atlas of H.264 refers to the one before
+  uint32_t mbit_max = 0;    // a second, of H.264; 0 = as many as the line takes
   bool has_mask = false;
 };
 

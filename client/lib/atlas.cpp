@@ -159,14 +159,6 @@ absl::Status decodeImage(const Atlas& atlas, v1::AtlasPlane plane, uint32_t imag
   return absl::OkStatus();
 }
 
-// Whether the plane came as video, and the layout says how its pictures lie.
-bool isVideo(const Atlas& atlas, v1::AtlasPlane plane) {
-  return atlas.layout->has_video() && plane == v1::ATLAS_PLANE_COLOR &&
-         std::ranges::all_of(atlas.bands, [](const AtlasBand& band) {
-           return band.plane != v1::ATLAS_PLANE_COLOR || band.encoding == v1::BAND_ENCODING_H264;
-         });
-}
-
 absl::StatusOr<AtlasPicture> joinChannels(const Atlas& atlas) {
   AtlasPicture joined{.width_px = atlas.layout->size().width(),
                       .height_px = atlas.layout->size().height(),
@@ -190,7 +182,7 @@ absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plan
     return joinChannels(atlas);
   }
   if (!hasWholePlane(atlas, plane)) return missing(plane);
-  if (isVideo(atlas, plane)) return decodeVideo(atlas);
+  if (plane == v1::ATLAS_PLANE_COLOR && isWholeVideo(atlas)) return decodeVideo(atlas);
   const v1::AtlasLayout& layout = *atlas.layout;
   AtlasPicture picture{.width_px = imageWidth(atlas),
                        .height_px = imageCount(atlas) * imageHeight(atlas),

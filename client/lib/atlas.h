@@ -52,8 +52,8 @@ absl::StatusOr<std::string> joinJpegBands(const Atlas& atlas,
 
 // Decodes one plane of the whole atlas, with its images one below the other. COLOR becomes RGB,
 // also from separate channels. RED, GREEN, BLUE and MASK become one byte a pixel, DEPTH_CODES two,
-// DEPTH four. FAILED_PRECONDITION if the atlas has no such plane. DATA_LOSS if its bytes do not
-// decode to the size of the layout.
+// DEPTH four. FAILED_PRECONDITION if the atlas has no such plane, or is chained video that refers
+// to another (color_decoder.h). DATA_LOSS if its bytes do not decode to the size of the layout.
 absl::StatusOr<AtlasPicture> decodePlane(const Atlas& atlas, v1::AtlasPlane plane);
 
 // Top left corner of a view's tile in the atlas.

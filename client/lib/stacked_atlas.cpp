@@ -98,10 +98,30 @@ absl::Status checkStack(const v1::AtlasLayout& layout) {
   return absl::DataLossError("the layout has a stack of pictures that does not hold its views");
 }
 
+bool isWholeVideo(const Atlas& atlas) {
+  return atlas.layout->has_video() && hasWholePlane(atlas, v1::ATLAS_PLANE_COLOR) &&
+         std::ranges::all_of(atlas.bands, [](const AtlasBand& band) {
+           return band.plane != v1::ATLAS_PLANE_COLOR || band.encoding == v1::BAND_ENCODING_H264;
+         });
+}
+
+absl::Status refusedReference(const Atlas& atlas) {
+  return absl::FailedPreconditionError(strCat(
+      "atlas ", atlas.header.sequence(), " refers to atlas ", atlas.header.reference_sequence(),
+      ", which was not decoded before it; decode all atlases in their order with one "
+      "ColorDecoder, or ask for PREDICTION_WITHIN_ATLAS"));
+}
+
 absl::StatusOr<AtlasPicture> decodeVideo(const Atlas& atlas) {
-  const v1::AtlasLayout& layout = *atlas.layout;
-  absl::StatusOr<std::unique_ptr<OpenH264Decoder>> decoder = OpenH264Decoder::make();
+  if (atlas.header.reference_sequence() != 0) return refusedReference(atlas);
+  const absl::StatusOr<std::unique_ptr<OpenH264Decoder>> decoder = OpenH264Decoder::make();
   VIEWLOOM_RETURN_IF_ERROR(decoder.status());
+  return decodeVideo(atlas, [&](uint32_t) -> VideoDecoder& { return **decoder; });
+}
+
+absl::StatusOr<AtlasPicture> decodeVideo(const Atlas& atlas,
+                                         const std::function<VideoDecoder&(uint32_t)>& decoder_of) {
+  const v1::AtlasLayout& layout = *atlas.layout;
   AtlasPicture picture = emptyAtlas(layout, 3);
   const std::vector<const AtlasBand*> pictures = picturesOf(atlas);
   for (uint32_t index = 0; index < pictures.size(); ++index) {
@@ -109,7 +129,7 @@ absl::StatusOr<AtlasPicture> decodeVideo(const Atlas& atlas) {
     const std::string& bytes = pictures[index]->bytes;
     const auto* const data = reinterpret_cast<const uint8_t*>(bytes.data());
     const absl::StatusOr<VideoPicture> decoded =
-        (*decoder)->decode({data, bytes.size()}, sizeOf(layout.video().picture_size()));
+        decoder_of(index).decode({data, bytes.size()}, sizeOf(layout.video().picture_size()));
     if (!decoded.ok()) return asLoss(index, decoded.status());
     writeViews(*decoded, layout, index, picture);
   }

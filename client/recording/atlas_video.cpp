@@ -127,7 +127,7 @@ absl::Status AtlasVideo::add(const Atlas& atlas, int64_t arrived_ns) {
                atlas.layout->size().height(),
                " px or other views; the video ends here and keeps what came before"));
   }
-  const absl::StatusOr<AtlasPicture> picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
+  const absl::StatusOr<AtlasPicture> picture = decoder_.decode(atlas);
   VIEWLOOM_RETURN_IF_ERROR(picture.status());
   const v1::AtlasHeader& header = atlas.header;
   const int64_t shown_ns =

@@ -10,6 +10,7 @@
 
 #include "base/status.h"
 #include "lib/atlas.h"
+#include "lib/color_decoder.h"
 #include "mp4/movie_clock.h"
 #include "mp4/movie_coder.h"
 #include "mp4/movie_file.h"
@@ -53,6 +54,7 @@ class AtlasVideo {
   std::filesystem::path written_path_;  // with the layout in its name
   AtlasTiles tiles_;
   VideoTiles video_tiles_;
+  ColorDecoder decoder_;
   std::unique_ptr<MovieFile> file_;  // from the first atlas on, as what follows
   std::unique_ptr<MovieCoder> coder_;
   MovieClock clock_;

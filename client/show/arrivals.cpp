@@ -8,7 +8,9 @@
 namespace viewloom::show {
 
 void Arrivals::take(const Atlas& atlas) {
-  absl::StatusOr<DecodedAtlas> decoded = decodeAtlas(atlas);
+  std::unique_lock decoder_lock(decoder_mutex_);
+  absl::StatusOr<DecodedAtlas> decoded = decodeAtlas(atlas, decoder_);
+  decoder_lock.unlock();
   if (!decoded.ok()) return fail(decoded.status());
   const int64_t due_ns = dueTimeNs(atlas.header.present_at_ns(), wallTimeNs());
   queue_.offer(*std::move(decoded), due_ns);

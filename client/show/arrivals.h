@@ -14,7 +14,7 @@ namespace viewloom::show {
 // Thread-safety: all methods may be called from any thread.
 class Arrivals {
  public:
-  // Decoded here; one that cannot be is a failure.
+  // Decoded here, all of them in their order; one that cannot be is a failure.
   void take(const Atlas& atlas);
   // The session ends with it.
   void fail(const absl::Status& status);
@@ -25,6 +25,8 @@ class Arrivals {
 
  private:
   PresentQueue<DecodedAtlas> queue_;
+  std::mutex decoder_mutex_;
+  ColorDecoder decoder_;  // guarded by decoder_mutex_
   mutable std::mutex mutex_;
   absl::Status failure_;  // guarded by mutex_
 };

@@ -38,13 +38,13 @@ PixelArea areaOfView(const v1::AtlasLayout& layout, uint32_t view) {
 
 }  // namespace
 
-absl::StatusOr<DecodedAtlas> decodeAtlas(const Atlas& atlas) {
+absl::StatusOr<DecodedAtlas> decodeAtlas(const Atlas& atlas, ColorDecoder& decoder) {
   if (!isOnePicture(*atlas.layout) && !holdsItsTiles(*atlas.layout)) {
     return absl::DataLossError(strCat("the server's layout says ", atlas.layout->view_count(),
                                       " views in ", atlas.layout->columns(), "x",
                                       atlas.layout->rows(), " tiles that its atlas cannot hold"));
   }
-  absl::StatusOr<AtlasPicture> picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
+  absl::StatusOr<AtlasPicture> picture = decoder.decode(atlas);
   if (!picture.ok()) return picture.status();
   return DecodedAtlas{*std::move(picture), atlas.layout, atlas.header};
 }

@@ -8,6 +8,7 @@
 #include "base/status.h"
 #include "calibration/calibration.h"
 #include "lib/atlas.h"
+#include "lib/color_decoder.h"
 #include "show/gl_texture.h"
 #include "show/painter.h"
 #include "show/show_settings.h"
@@ -22,7 +23,7 @@ struct DecodedAtlas {
 };
 
 // DATA_LOSS when its bytes do not decode, or the layout does not hold its own tiles.
-absl::StatusOr<DecodedAtlas> decodeAtlas(const Atlas& atlas);
+absl::StatusOr<DecodedAtlas> decodeAtlas(const Atlas& atlas, ColorDecoder& decoder);
 
 // Thread-safety: main thread.
 class ShownAtlas {

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Views as chained H.264 from a whole server, decoded atlas by atlas.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "e2e/atlas_viewer.h"
+#include "e2e/service_fixture.h"
+#include "e2e/wire_displays.h"
+#include "lib/color_decoder.h"
+#include "scoring/psnr.h"
+
+namespace viewloom::test::service_chained_video_test {
+namespace {
+
+struct Decoded {
+  Atlas atlas;
+  absl::StatusOr<AtlasPicture> color;
+};
+
+// A client that decodes every atlas. Thread-safety: all methods may be called from any thread.
+class Follower {
+ public:
+  Follower(const std::string& address, const v1::OpenDisplay& open)
+      : watcher_(makeChannel(address), open,
+                 {.on_layout = {},
+                  .on_atlas =
+                      [this](const Atlas& atlas) {
+                        absl::StatusOr<AtlasPicture> color = decoder_.decode(atlas);
+                        std::lock_guard lock(mutex_);
+                        all_.push_back({atlas, std::move(color)});
+                        came_.notify_all();
+                      },
+                  .on_connection = {}}) {}
+
+  // All atlases, once there are so many.
+  std::vector<Decoded> waitForCount(size_t count) {
+    std::unique_lock lock(mutex_);
+    EXPECT_TRUE(came_.wait_for(lock, kGiveUpAfter, [&] { return all_.size() >= count; }))
+        << all_.size() << " came";
+    return all_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable came_;
+  std::vector<Decoded> all_;
+  ColorDecoder decoder_;  // the watcher's thread's own
+  Watcher watcher_;       // last: it calls
+};
+
+v1::OpenDisplay quilt() {
+  v1::OpenDisplay open = openScene();
+  v1::QuiltDisplay& quilt = *open.mutable_display()->mutable_quilt();
+  quilt.set_columns(5);
+  quilt.set_rows(4);
+  quilt.mutable_size()->set_width(327);
+  quilt.mutable_size()->set_height(246);
+  return open;
+}
+
+v1::OpenDisplay chainedQuilt() {
+  v1::OpenDisplay open = quilt();
+  open.set_count(0);
+  open.mutable_encoding()->set_color(v1::BAND_ENCODING_H264);
+  open.mutable_encoding()->set_video_qp(20);
+  open.mutable_encoding()->set_prediction(v1::PREDICTION_ACROSS_ATLASES);
+  return open;
+}
+
+double psnrDb(const AtlasPicture& a, const AtlasPicture& b) {
+  EXPECT_EQ(a.samples.size(), b.samples.size());
+  Psnr psnr;
+  for (size_t i = 0; i < std::min(a.samples.size(), b.samples.size()); ++i) {
+    psnr.add((double(a.samples[i]) - double(b.samples[i])) / 255);
+  }
+  return psnr.db();
+}
+
+class ServiceChainedVideoTest : public ServiceFixture {
+ protected:
+  void SetUp() override {
+    ServiceFixture::SetUp();
+    if (IsSkipped()) return;
+    publisher_.emplace(makeChannel(service_->grpcAddress()),
+                       PublisherOptions{.stream = "scene", .session_id = "", .backoff = {}},
+                       PublisherCallbacks{});
+  }
+  void TearDown() override {
+    publisher_.reset();
+    ServiceFixture::TearDown();
+  }
+
+  void publish(double time_s) { publisher_->offer(syntheticWireFrame({160, 90}, 2, time_s)); }
+
+  std::optional<Publisher> publisher_;
+};
+
+TEST_F(ServiceChainedVideoTest, refersToTheAtlasBeforeAndShowsEachFrame) {
+  Follower follower(service_->grpcAddress(), chainedQuilt());
+  for (size_t number = 1; number <= 4; ++number) {
+    publish(0.1 * double(number));
+    follower.waitForCount(number);
+  }
+  const std::vector<Decoded> all = follower.waitForCount(4);
+  uint64_t before = 0;
+  for (const Decoded& one : all) {
+    EXPECT_EQ(one.atlas.layout->encoding().prediction(), v1::PREDICTION_ACROSS_ATLASES);
+    EXPECT_EQ(one.atlas.layout->video().picture_count(), 3u);
+    EXPECT_EQ(one.atlas.header.reference_sequence(), before);
+    EXPECT_FALSE(one.atlas.header.discardable());
+    EXPECT_TRUE(one.color.ok()) << one.color.status();
+    before = one.atlas.header.sequence();
+  }
+  v1::OpenDisplay exact = quilt();
+  exact.mutable_encoding()->set_color(v1::BAND_ENCODING_ZSTD);
+  const Atlas newest =
+      AtlasViewer(service_->grpcAddress(), exact).waitFor([](const Atlas&) { return true; });
+  ASSERT_EQ(newest.header.frame_number(), all.back().atlas.header.frame_number());
+  const auto color = decodePlane(newest, v1::ATLAS_PLANE_COLOR);
+  ASSERT_TRUE(color.ok() && all.back().color.ok());
+  constexpr double kFineDb = 30;  // what 4:2:0 takes, and quantisation
+  EXPECT_GT(psnrDb(*all.back().color, *color), kFineDb);
+}
+
+TEST_F(ServiceChainedVideoTest, givesAJoinerOfAStandingFrameAnAtlasThatNeedsNoOther) {
+  Follower first(service_->grpcAddress(), chainedQuilt());
+  publish(0.1);
+  first.waitForCount(1);
+  publish(0.2);
+  const Decoded standing = first.waitForCount(2)[1];
+  EXPECT_NE(standing.atlas.header.reference_sequence(), 0u);
+  Follower joiner(service_->grpcAddress(), chainedQuilt());
+  const Decoded got = joiner.waitForCount(1)[0];
+  EXPECT_EQ(got.atlas.header.reference_sequence(), 0u);
+  EXPECT_EQ(got.atlas.header.frame_number(), standing.atlas.header.frame_number());
+  ASSERT_TRUE(got.color.ok() && standing.color.ok());
+  EXPECT_GT(psnrDb(*got.color, *standing.color), 36);
+  // Both follow from here on.
+  publish(0.3);
+  EXPECT_EQ(joiner.waitForCount(2)[1].atlas.header.reference_sequence(),
+            got.atlas.header.sequence());
+  for (const Decoded& one : first.waitForCount(4)) EXPECT_TRUE(one.color.ok());
+}
+
+}  // namespace
+}  // namespace viewloom::test::service_chained_video_test

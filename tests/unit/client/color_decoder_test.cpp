@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "lib/color_decoder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "video/openh264_encoder.h"
+
+namespace viewloom::color_decoder_test {
+namespace {
+
+constexpr SizePx kView_px = {32, 16};
+constexpr uint32_t kViews = 2;  // a picture each
+
+v1::AtlasLayout layoutOf(v1::Prediction prediction) {
+  v1::AtlasLayout layout;
+  layout.mutable_size()->set_width(kViews * kView_px.width);
+  layout.mutable_size()->set_height(kView_px.height);
+  layout.set_columns(kViews);
+  layout.set_rows(1);
+  layout.mutable_tile_size()->set_width(kView_px.width);
+  layout.mutable_tile_size()->set_height(kView_px.height);
+  layout.set_order(v1::TILE_ORDER_TOP_LEFT);
+  layout.set_view_count(kViews);
+  layout.set_image_count(1);
+  layout.mutable_encoding()->set_color(v1::BAND_ENCODING_H264);
+  layout.mutable_encoding()->set_prediction(prediction);
+  v1::VideoStack& stack = *layout.mutable_video();
+  stack.set_picture_count(kViews);
+  stack.set_columns(1);
+  stack.set_rows(1);
+  *stack.mutable_picture_size() = layout.tile_size();
+  *stack.mutable_cell_size() = layout.tile_size();
+  return layout;
+}
+
+// Codes atlases as a server does: each picture is a stream.
+class Coder {
+ public:
+  // An atlas whose views have the greys `grey` and `grey` + 20.
+  Atlas code(uint64_t sequence, uint64_t reference, uint8_t grey) {
+    Atlas atlas{.layout = layout_, .header = {}, .end = {}, .bands = {}};
+    atlas.header.set_sequence(sequence);
+    atlas.header.set_reference_sequence(reference);
+    const std::vector<uint8_t> chroma(kView_px.area() / 4, 128);
+    for (uint32_t view = 0; view < kViews; ++view) {
+      const std::vector<uint8_t> luma(kView_px.area(), uint8_t(grey + 20 * view));
+      std::vector<uint8_t> unit;
+      const absl::Status status = encoders_[view]->encode(
+          {.size_px = kView_px,
+           .y = luma.data(),
+           .cb = chroma.data(),
+           .cr = chroma.data(),
+           .y_stride_bytes = kView_px.width,
+           .chroma_stride_bytes = kView_px.width / 2},
+          reference == 0 ? Reference::kNone : Reference::kPictureBefore, unit);
+      EXPECT_TRUE(status.ok()) << status;
+      atlas.bands.push_back({.image_index = view,
+                             .plane = v1::ATLAS_PLANE_COLOR,
+                             .first_row = 0,
+                             .row_count = kView_px.height,
+                             .encoding = v1::BAND_ENCODING_H264,
+                             .bytes = std::string(unit.begin(), unit.end())});
+    }
+    return atlas;
+  }
+
+ private:
+  static std::unique_ptr<OpenH264Encoder> newEncoder() {
+    auto encoder = OpenH264Encoder::make({.size_px = kView_px, .qp = 20});
+    EXPECT_TRUE(encoder.ok()) << encoder.status();
+    return *std::move(encoder);
+  }
+
+  const std::shared_ptr<const v1::AtlasLayout> layout_ =
+      std::make_shared<const v1::AtlasLayout>(layoutOf(v1::PREDICTION_ACROSS_ATLASES));
+  const std::unique_ptr<OpenH264Encoder> encoders_[kViews] = {newEncoder(), newEncoder()};
+};
+
+void expectGreys(const absl::StatusOr<AtlasPicture>& picture, uint8_t grey) {
+  ASSERT_TRUE(picture.ok()) << picture.status();
+  ASSERT_EQ(picture->width_px, kViews * kView_px.width);
+  const size_t middle = kView_px.height / 2 * size_t{picture->width_px};
+  for (uint32_t view = 0; view < kViews; ++view) {
+    const size_t x = view * kView_px.width + kView_px.width / 2;
+    EXPECT_NEAR(picture->samples[3 * (middle + x)], grey + 20 * view, 1) << view;
+  }
+}
+
+TEST(ColorDecoder, followsChainedAtlases) {
+  Coder coder;
+  ColorDecoder decoder;
+  expectGreys(decoder.decode(coder.code(5, 0, 40)), 40);
+  expectGreys(decoder.decode(coder.code(6, 5, 60)), 60);
+  expectGreys(decoder.decode(coder.code(7, 6, 90)), 90);
+  expectGreys(decoder.decode(coder.code(9, 0, 120)), 120);
+  expectGreys(decoder.decode(coder.code(10, 9, 200)), 200);
+}
+
+TEST(ColorDecoder, refusesAnAtlasThatRefersToAMissingOne) {
+  Coder coder;
+  ColorDecoder decoder;
+  const Atlas first = coder.code(1, 0, 40);
+  const Atlas second = coder.code(2, 1, 60);
+  const Atlas third = coder.code(3, 2, 90);
+  expectGreys(decoder.decode(first), 40);
+  const absl::Status refused = decoder.decode(third).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_THAT(std::string(refused.message()),
+              testing::HasSubstr("atlas 3 refers to atlas 2, which was not decoded"));
+  EXPECT_FALSE(decoder.decode(second).ok()) << "after an error, none that refers to another";
+  expectGreys(decoder.decode(coder.code(4, 0, 120)), 120);
+}
+
+TEST(ColorDecoder, refusesWhatFollowsADamagedAtlas) {
+  Coder coder;
+  ColorDecoder decoder;
+  expectGreys(decoder.decode(coder.code(1, 0, 40)), 40);
+  Atlas damaged = coder.code(2, 1, 60);
+  damaged.bands[1].bytes = "no picture";
+  EXPECT_EQ(decoder.decode(damaged).status().code(), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(decoder.decode(coder.code(3, 2, 90)).status().code(),
+            absl::StatusCode::kFailedPrecondition);
+  expectGreys(decoder.decode(coder.code(4, 0, 120)), 120);
+}
+
+TEST(ColorDecoder, isNeededOnlyForAtlasesThatReferToOthers) {
+  Coder coder;
+  expectGreys(decodePlane(coder.code(1, 0, 40), v1::ATLAS_PLANE_COLOR), 40);
+  const absl::Status refused = decodePlane(coder.code(2, 1, 60), v1::ATLAS_PLANE_COLOR).status();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kFailedPrecondition);
+  EXPECT_THAT(std::string(refused.message()), testing::HasSubstr("ColorDecoder"));
+}
+
+}  // namespace
+}  // namespace viewloom::color_decoder_test
