@@ -12,8 +12,9 @@ import numpy as np
 import viewloom
 from viewloom import h264
 from viewloom.atlas import Band
+from viewloom.atlas_inbox import AtlasInbox
 from viewloom.v1 import atlas_pb2, display_pb2
-from viewloom.v1.display_service_pb2 import AtlasHeader
+from viewloom.v1.display_service_pb2 import AtlasHeader, StreamAtlasesResponse
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "web"))
 from coded_atlases import code_stacks  # noqa: E402  (it lies beside the tests of the page)
@@ -136,6 +137,42 @@ class Video(unittest.TestCase):
         layout.video.picture_size.width *= 2
         with self.assertRaisesRegex(viewloom.ViewloomError, "px, the layout"):
             atlas_of(layout, self.units).color  # pylint: disable=expression-not-assigned
+
+    def test_chained_atlases_are_decoded_as_they_come(self):
+        views = [np.roll(self.views, 3 * number, axis=2) for number in range(3)]
+        coded = code_stacks(PROGRAM, views, 20, chained=True)
+        layout = layout_of(self.views, coded[0][0])
+        layout.encoding.prediction = atlas_pb2.PREDICTION_ACROSS_ATLASES
+        inbox = AtlasInbox()
+        inbox.add(StreamAtlasesResponse(layout=layout))
+
+        def add(number):
+            units = coded[number][1]
+            size = layout.video.picture_size
+            inbox.add(StreamAtlasesResponse(header={
+                "sequence": number + 1, "reference_sequence": number, "band_count": len(units)}))
+            for index, unit in enumerate(units):
+                inbox.add(StreamAtlasesResponse(band={
+                    "sequence": number + 1, "image_index": index,
+                    "plane": atlas_pb2.ATLAS_PLANE_COLOR, "row_count": size.height,
+                    "encoding": H264, "data": unit, "last_piece": True}))
+            inbox.add(StreamAtlasesResponse(end={"sequence": number + 1}))
+
+        add(0)
+        inbox.add(StreamAtlasesResponse(layout=layout))  # as for eyes that move
+        add(1)  # nobody takes the one before
+        add(2)
+        atlas = inbox.take()
+        for view, expected in enumerate(views[2]):
+            error = atlas.view(view).astype(float) - expected
+            self.assertLess(np.sqrt(np.mean(error ** 2)), 3, f"view {view}")
+        add(0)
+        with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*refers to atlas 2"):
+            add(2)
+
+    def test_chained_video_needs_video(self):
+        with self.assertRaisesRegex(viewloom.BadInput, "chained"):
+            viewloom.encoding(chained=True)
 
     def test_a_missing_library_is_named(self):
         h264._library.cache_clear()  # pylint: disable=protected-access

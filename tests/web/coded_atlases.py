@@ -71,10 +71,13 @@ def message(header, payload):
     return struct.pack("<I", len(text)) + text + payload
 
 
-def code_stacks(program, atlases, qp):
-    """By OpenH264, of uint8[view][y][x][3] each: [(VideoStack as JSON, access units)]."""
+def code_stacks(program, atlases, qp, chained=False):
+    """By OpenH264, of uint8[view][y][x][3] each: [(VideoStack as JSON, access units)].
+
+    chained: the pictures of each atlas but the first refer to those of the atlas before."""
     count, height, width = atlases[0].shape[:3]
-    run = subprocess.run([program, str(width), str(height), str(count), str(qp)], check=True,
+    numbers = [str(width), str(height), str(count), str(qp)]
+    run = subprocess.run([program, *numbers, *(["chained"] if chained else [])], check=True,
                          input=b"".join(views.tobytes() for views in atlases),
                          stdout=subprocess.PIPE)
     output = io.BytesIO(run.stdout)
@@ -85,9 +88,12 @@ def code_stacks(program, atlases, qp):
     return coded
 
 
-def video_message(layout, video, units, **header):
+def video_message(layout, video, units, reference_sequence=None, **header):
+    """reference_sequence: of chained video; 0 = it needs no other."""
+    chain = {} if reference_sequence is None else {"prediction": "ACROSS_ATLASES"}
     return message({"layout": {**layout, "video": video},
-                    "encoding": {"color": "H264", "jpeg_quality": 85, "chroma": "420"},
+                    "encoding": {"color": "H264", "jpeg_quality": 85, "chroma": "420", **chain},
+                    "reference_sequence": reference_sequence or 0,
                     "picture_bytes": [len(unit) for unit in units], **header}, b"".join(units))
 
 

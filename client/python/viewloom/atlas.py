@@ -7,14 +7,14 @@ import dataclasses
 import functools
 import io
 import pathlib
-from typing import Any, Union
+from typing import Any, Optional, Union
 
 import numpy as np
 import zstandard
 from numpy.typing import NDArray
 from PIL.JpegImagePlugin import JpegImageFile
 
-from viewloom import stack
+from viewloom import h264, stack
 from viewloom.atlas_file import PathLike, save
 from viewloom.errors import BadInput, data_loss
 from viewloom.tiles import view_window
@@ -74,6 +74,7 @@ class Atlas:
     end:      what is known once it is whole: coverage, stage times (proto AtlasEnd).
     skipped:  atlases of this display that were made since the one before, and overtaken.
     stream:   the name of the stream.
+    pictures: of chained video, decoded as they came; else None.
     """
 
     layout: AtlasLayout
@@ -82,6 +83,7 @@ class Atlas:
     end: AtlasEnd = dataclasses.field(default_factory=AtlasEnd)
     skipped: int = 0
     stream: str = ""
+    pictures: Optional[list[h264.Picture]] = None
 
     def __repr__(self) -> str:
         tile = self.layout.tile_size
@@ -125,13 +127,21 @@ class Atlas:
     def _stacked(self, plane: atlas_pb2.AtlasPlane) -> NDArray[Any]:
         """All images of an atlas whose color is video."""
         video = self.layout.video
-        pictures = [self._bands_of(plane, picture) for picture in range(video.picture_count)]
+        if plane == atlas_pb2.ATLAS_PLANE_COLOR and self.pictures is not None:
+            return stack.painted(self.pictures, self.layout)
         if plane == atlas_pb2.ATLAS_PLANE_COLOR:
-            return stack.decoded([b"".join(band.data for band in bands) for bands in pictures],
-                                 self.layout)
+            return stack.decoded(self.access_units(), self.layout)
+        pictures = [self._bands_of(plane, picture) for picture in range(video.picture_count)]
         return stack.unstacked(
             [self._unpacked(bands, plane, video.picture_size.width, video.picture_size.height)
              for bands in pictures], self.layout)
+
+    def access_units(self) -> list[bytes]:
+        """Pictures of H.264, as they came. Raises BadInput where colour is no video."""
+        if not self.layout.HasField("video"):
+            raise BadInput("encoding", "is not H.264: there are no pictures of a video; use color")
+        return [b"".join(band.data for band in self._bands_of(atlas_pb2.ATLAS_PLANE_COLOR, picture))
+                for picture in range(self.layout.video.picture_count)]
 
     def _whole(self, plane: atlas_pb2.AtlasPlane) -> NDArray[Any]:
         if self.layout.HasField("video"):

@@ -9,8 +9,9 @@ import grpc
 
 from viewloom.atlas import Atlas, Band
 from viewloom.errors import ViewloomError, data_loss
+from viewloom.stack import Chain
 from viewloom.v1 import display_service_pb2
-from viewloom.v1.atlas_pb2 import AtlasLayout
+from viewloom.v1.atlas_pb2 import PREDICTION_ACROSS_ATLASES, AtlasLayout
 from viewloom.v1.display_service_pb2 import AtlasEnd, AtlasHeader, StreamAtlasesResponse
 
 # More than any atlas: 16384x16384 px of colour, depth and mask, not packed.
@@ -35,6 +36,7 @@ class AtlasInbox:
         self._bands: list[Band] = []
         self._band_is_open = False
         self._bytes = 0
+        self._chain: Optional[Chain] = None  # of the layout, if its video is chained
         self._newest: Optional[Atlas] = None
         self._skipped = 0  # since the newest one that was taken
         self.is_ended = False
@@ -42,13 +44,15 @@ class AtlasInbox:
 
     def begin_call(self) -> None:
         """What comes next belongs to another call: what was begun is discarded."""
-        self._layout = self._header = None
+        self._layout = self._header = self._chain = None
 
     def add(self, response: StreamAtlasesResponse) -> None:
         """Takes a message in. Raises DATA_LOSS when it does not follow those before."""
         kind = response.WhichOneof("message")
         if kind == "layout":
             self._layout, self._header = response.layout, None
+            is_chained = response.layout.encoding.prediction == PREDICTION_ACROSS_ATLASES
+            self._chain = (self._chain or Chain()) if is_chained else None
         elif kind == "header":  # what was begun, and has not ended, is discarded
             self._header, self._bands, self._band_is_open = response.header, [], False
             self._bytes = 0
@@ -85,7 +89,10 @@ class AtlasInbox:
             raise data_loss(f"atlas {sequence} ended before it was whole")
         self._skipped += self._newest is not None
         _take_outcome(self._header, end)
-        self._newest = Atlas(self._layout, self._header, self._bands, end, stream=self._stream)
+        atlas = Atlas(self._layout, self._header, self._bands, end, stream=self._stream)
+        if self._chain is not None:  # the next one refers to it, also if nobody takes it
+            atlas.pictures = self._chain.decode(atlas.access_units(), self._header, self._layout)
+        self._newest = atlas
         self._header = None
 
     def end(self, error: Optional[ViewloomError]) -> None:

@@ -30,12 +30,14 @@ def display_from(display: DisplayLike) -> display_pb2.Display:
 
 def encoding(*, lossless: bool = False, depth: bool = False, mask: bool = False,
              jpeg_quality: int = 0, chroma: Optional[int] = None, h264: bool = False,
-             video_qp: int = 0) -> atlas_pb2.AtlasEncoding:
+             video_qp: int = 0, chained: bool = False) -> atlas_pb2.AtlasEncoding:
     """How atlases are to come.
 
     lossless:      colour as it was traced, instead of as a JPEG.
     h264:          colour as a video through the views, at a quarter of the bytes of a JPEG.
     video_qp:      of H.264: quantisation, 20 (best) to 51; 0 = the error of jpeg_quality.
+    chained:       of H.264: pictures may refer to the atlas before. Takes half the bytes where the
+                   camera stands still, and decodes every atlas, also those that nobody looks at.
     depth, mask:   also the planes Atlas.inv_z and Atlas.mask, which are always lossless.
     jpeg_quality:  1..100; 0 = the server's default.
     chroma:        of a JPEG, 420 (half resolution) or 444; None = the server's default.
@@ -44,12 +46,15 @@ def encoding(*, lossless: bool = False, depth: bool = False, mask: bool = False,
         raise BadInput("chroma", f"is {chroma}, must be 420 or 444")
     if lossless and h264:
         raise BadInput("h264", "is given with lossless; accepted is one of the two")
+    if chained and not h264:
+        raise BadInput("chained", "is given without h264; accepted is both")
     color = atlas_pb2.BAND_ENCODING_UNSPECIFIED
     if lossless or h264:
         color = atlas_pb2.BAND_ENCODING_ZSTD if lossless else atlas_pb2.BAND_ENCODING_H264
     return atlas_pb2.AtlasEncoding(
         color=color, jpeg_quality=jpeg_quality, with_depth=depth, with_mask=mask,
-        video_qp=video_qp,
+        video_qp=video_qp, prediction=(
+            atlas_pb2.PREDICTION_ACROSS_ATLASES if chained else atlas_pb2.PREDICTION_UNSPECIFIED),
         chroma=atlas_pb2.CHROMA_SUBSAMPLING_UNSPECIFIED if chroma is None else _CHROMAS[chroma])
 
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Codes views as the server does it, for tests and measurements of clients without a server.
-// Arguments: view width, view height, view count, quantisation (20..51). Standard input: atlases of
-// views, each uint8_t[view][y][x][3] R, G, B. For each atlas it writes a line of JSON and the
-// access units: {"video": ..., "picture_bytes": [...]}, where video has the fields of proto
-// VideoStack.
+// Codes views as video, for tests and measurements of clients without a server.
+// Arguments: view width, view height, view count, quantisation (20..51), and "chained" where
+// atlases are to refer to the one before. Standard input: atlases of views, each
+// uint8_t[view][y][x][3] R, G, B. For each atlas it writes a line of JSON and the access units:
+// {"video": ..., "picture_bytes": [...]}, where video has the fields of proto VideoStack.
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
+#include <memory>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/str_cat.h"
@@ -86,26 +89,56 @@ std::string sizeText(SizePx size_px) {
 }
 
 std::string headerOf(const VideoStack& stack, const std::vector<std::vector<uint8_t>>& units) {
-  const auto parameters = h264ParametersOf(units.front());
   std::string sizes;
   for (const auto& unit : units) sizes += strCat(sizes.empty() ? "" : ",", unit.size());
   return strCat("{\"video\":{\"picture_count\":", stack.picture_count,
                 ",\"picture_size\":", sizeText(stack.pictureSize()), ",\"columns\":", stack.columns,
                 ",\"rows\":", stack.rows, ",\"cell_size\":", sizeText(stack.cell_px),
-                ",\"codec_string\":\"", h264CodecString(*parameters),
+                ",\"codec_string\":\"", codedVideoString(stack.pictureSize()),
                 "\",\"color_matrix\":\"BT601\",\"full_range\":true},\"picture_bytes\":[", sizes,
                 "]}\n");
 }
 
-absl::Status writeAtlas(const Views& views, const VideoStack& stack, VideoEncoder& encoder) {
+// The encoders of a stack: one of each picture where atlases are chained, else one for all.
+class Encoders {
+ public:
+  static absl::StatusOr<Encoders> make(const VideoStack& stack, uint32_t qp,
+                                       Prediction prediction) {
+    Encoders encoders(prediction);
+    const bool is_chained = prediction == Prediction::kAcrossAtlases;
+    for (uint32_t i = 0; i < (is_chained ? stack.picture_count : 1); ++i) {
+      auto encoder = OpenH264Encoder::make(viewFormat(stack.pictureSize(), qp));
+      VIEWLOOM_RETURN_IF_ERROR(encoder.status());
+      encoders.all_.push_back(*std::move(encoder));
+    }
+    return encoders;
+  }
+
+  // The first atlas of a chain needs no other.
+  absl::Status encode(const VideoPicture& picture, uint32_t index, bool is_first,
+                      std::vector<uint8_t>& unit) {
+    const bool is_chained = prediction_ == Prediction::kAcrossAtlases;
+    const bool refers = is_chained ? !is_first : index > 0;
+    return all_[is_chained ? index : 0]->encode(
+        picture, refers ? Reference::kPictureBefore : Reference::kNone, unit);
+  }
+
+ private:
+  explicit Encoders(Prediction prediction) : prediction_(prediction) {}
+
+  Prediction prediction_;
+  std::vector<std::unique_ptr<OpenH264Encoder>> all_;
+};
+
+absl::Status writeAtlas(const Views& views, const VideoStack& stack, bool is_first,
+                        Encoders& encoders) {
   std::vector<std::vector<uint8_t>> units(stack.picture_count);
   for (uint32_t picture = 0; picture < stack.picture_count; ++picture) {
     Planes planes(stack.pictureSize());
     for (uint32_t view = picture; view < stack.view_count; view += stack.picture_count) {
       planes.put(views, view, stack.cell_px, stack.cellOf(view));
     }
-    const Reference reference = picture == 0 ? Reference::kNone : Reference::kPictureBefore;
-    VIEWLOOM_RETURN_IF_ERROR(encoder.encode(planes.video(), reference, units[picture]));
+    VIEWLOOM_RETURN_IF_ERROR(encoders.encode(planes.video(), picture, is_first, units[picture]));
   }
   std::cout << headerOf(stack, units);
   for (const auto& unit : units) {
@@ -114,15 +147,16 @@ absl::Status writeAtlas(const Views& views, const VideoStack& stack, VideoEncode
   return absl::OkStatus();
 }
 
-absl::Status codeAll(SizePx view_px, uint32_t view_count, uint32_t qp) {
-  const absl::StatusOr<VideoStack> stack = planVideoStack(view_px, view_count);
+absl::Status codeAll(SizePx view_px, uint32_t view_count, uint32_t qp, Prediction prediction) {
+  const absl::StatusOr<VideoStack> stack = planVideoStack(view_px, view_count, prediction);
   VIEWLOOM_RETURN_IF_ERROR(stack.status());
-  auto encoder = OpenH264Encoder::make(viewFormat(stack->pictureSize(), qp));
-  VIEWLOOM_RETURN_IF_ERROR(encoder.status());
+  absl::StatusOr<Encoders> encoders = Encoders::make(*stack, qp, prediction);
+  VIEWLOOM_RETURN_IF_ERROR(encoders.status());
+  bool is_first = true;
   Views views{.view_px = view_px, .rgb = std::vector<uint8_t>(view_px.area() * 3 * view_count)};
   while (
       std::cin.read(reinterpret_cast<char*>(views.rgb.data()), std::streamsize(views.rgb.size()))) {
-    VIEWLOOM_RETURN_IF_ERROR(writeAtlas(views, *stack, **encoder));
+    VIEWLOOM_RETURN_IF_ERROR(writeAtlas(views, *stack, std::exchange(is_first, false), *encoders));
   }
   return absl::OkStatus();
 }
@@ -131,12 +165,16 @@ absl::Status codeAll(SizePx view_px, uint32_t view_count, uint32_t qp) {
 }  // namespace viewloom::test
 
 int main(int argc, char** argv) {
-  if (argc != 5) {
-    std::cerr << "code_stack: expected are view width, view height, view count and quantisation\n";
+  const bool is_chained = argc == 6 && std::string_view(argv[5]) == "chained";
+  if (argc != 5 && !is_chained) {
+    std::cerr << "code_stack: expected are view width, view height, view count and quantisation, "
+                 "then perhaps \"chained\"\n";
     return 2;
   }
   const auto number = [argv](int index) { return uint32_t(std::atoi(argv[index])); };
-  const absl::Status status = viewloom::test::codeAll({number(1), number(2)}, number(3), number(4));
+  const absl::Status status = viewloom::test::codeAll(
+      {number(1), number(2)}, number(3), number(4),
+      is_chained ? viewloom::Prediction::kAcrossAtlases : viewloom::Prediction::kWithinAtlas);
   if (!status.ok()) std::cerr << "code_stack: " << status << "\n";
   return status.ok() ? 0 : 1;
 }
