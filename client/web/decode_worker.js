@@ -9,7 +9,7 @@ self.onmessage = async ({data: job}) => {
   }
   try {
     const made = await decoded(job);
-    const moved = [made.bitmap ?? made.planes.buffer];
+    const moved = [made.bitmap ?? made.planes?.buffer].filter(Boolean);
     if (made.depth) moved.push(made.depth.inv_z.buffer);
     self.postMessage(made, moved);
   } catch (error) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns atlas messages into bitmaps, one at a time; of those that wait only the newest is decoded.
+// Of chained video all are, because each refers to the one before.
 import {unpackDepth} from './compact_depth.js';
 import {VideoAtlases} from './video_atlas.js';
 
@@ -38,10 +39,16 @@ export function parseAtlasMessage(message) {
   };
 }
 
-// {bitmap}, or {planes} of a video (video_planes.js).
-async function decodedColor({blob, pictures, layout}) {
+// {bitmap}, {planes} of a video (video_planes.js), or neither of one that is not to be shown.
+async function decodedColor({blob, pictures, layout, link, isShown}) {
   if (pictures.length === 0) return {bitmap: await createImageBitmap(blob)};
-  return {...await videos.decode(pictures, layout), upload: videos.upload};
+  return {...await videos.decode(pictures, layout, {link, isShown}), upload: videos.upload};
+}
+
+// {sequence, reference} of an atlas of chained video; null of others.
+function linkOf({sequence, reference_sequence, encoding}) {
+  const isChained = encoding?.prediction === 'ACROSS_ATLASES';
+  return isChained ? {sequence, reference: reference_sequence} : null;
 }
 
 // The same, and `depth` of compact bands alone: {inv_z, columns, rows}.
@@ -61,7 +68,7 @@ export function recycle(planes) {
 export class Decoder {
   #worker = null;
   #decoding = null;
-  #waiting = null;
+  #waiting = [];  // oldest first
   #isClosed = false;
 
   // onDecoded(atlas with bitmap or planes, release() of them, and decode_ms), onDropped(atlas),
@@ -86,26 +93,31 @@ export class Decoder {
   // Nothing comes any more, not even what is being decoded.
   close() {
     this.#isClosed = true;
-    this.#waiting = null;
+    this.#waiting = [];
     this.#worker?.terminate();
     this.#worker = null;
   }
 
   decode(atlas) {
     if (this.#isClosed) return;
-    if (this.#decoding) {
-      if (this.#waiting) this.onDropped(this.#waiting);
-      this.#waiting = atlas;
-    } else {
+    if (!this.#decoding) {
       this.#start(atlas);
+      return;
     }
+    if (!linkOf(atlas.header)?.reference) {  // it needs none of those that wait
+      for (const overtaken of this.#waiting.splice(0)) this.onDropped(overtaken);
+    }
+    this.#waiting.push(atlas);
   }
 
   #start(atlas) {
     this.#decoding = atlas;
+    const link = linkOf(atlas.header);
+    atlas.isOvertaken = this.#waiting.length > 0 && link !== null;
     atlas.decodeStarted_ms = performance.now();
     const {blob, pictures, packedDepth, header} = atlas;
-    const job = {blob, pictures, packedDepth, bands: header.depth_bands, layout: header.layout};
+    const job = {blob, pictures, packedDepth, bands: header.depth_bands, layout: header.layout,
+      link, isShown: !atlas.isOvertaken};
     if (this.#worker) {
       this.#worker.postMessage(job);
     } else {
@@ -118,15 +130,16 @@ export class Decoder {
     if (this.#isClosed) return;
     const atlas = this.#decoding;
     this.#decoding = null;
-    if (this.#waiting) {
-      const next = this.#waiting;
-      this.#waiting = null;
-      this.#start(next);
-    }
+    const next = this.#waiting.shift();
+    if (next) this.#start(next);
     if (error) {
       console.warn(`atlas ${atlas.header.sequence} cannot be decoded: ${error}`);
       this.onDropped(atlas);
       if (atlas.pictures.length > 0) this.onVideoFailed(error);
+      return;
+    }
+    if (atlas.isOvertaken) {
+      this.onDropped(atlas);
       return;
     }
     Object.assign(atlas, made);

@@ -59,6 +59,12 @@ function milliseconds(value) {
   return value >= 100 ? value.toFixed(0) : value.toFixed(1);
 }
 
+// With the quantisation that the server has chosen.
+function videoText({video_qp, reference_sequence}) {
+  const chosen = video_qp ? `, QP ${video_qp}` : '';
+  return ` of H.264${chosen}${reference_sequence ? ', chained' : ''}`;
+}
+
 export class Figures {
   #arrivals = [];  // {time_ms}, oldest first
   #means = {};     // ms
@@ -250,7 +256,7 @@ export class Figures {
         `${layout.columns} × ${layout.rows} = ${layout.view_count}`,
       'Size': `${layout.size.width} × ${layout.size.height} px`,
       'A view': `${layout.tile_size.width} × ${layout.tile_size.height} px`,
-      'Data': `${(bytes / 1e6).toFixed(2)} MB${pictures.length > 0 ? ' of H.264' : ''}`,
+      'Data': `${(bytes / 1e6).toFixed(2)} MB${pictures.length > 0 ? videoText(header) : ''}`,
       'Motion to picture': latencyText(this.#motion),
       'Data rate': `${(rate_hz * bytes * 8 / 1e6).toFixed(1)} Mbit/s`,
       'Skipped': `${this.#dropCount()} for newer pictures`,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Decodes atlases whose colour is H.264, by WebCodecs. Runs in the worker of decode_worker.js.
+import {PictureDecoder} from './picture_decoder.js';
 import {UploadTrial} from './upload_trial.js';
 import {VideoPainter} from './video_painter.js';
 import {VideoPlanes} from './video_planes.js';
@@ -7,56 +8,6 @@ import {VideoPlanes} from './video_planes.js';
 // Ways to bring pictures to where they are drawn. Both are measured; the first one is the faster
 // one without a GPU.
 const kWays = {planes: VideoPlanes, texImage2D: VideoPainter};
-
-const kPatience_ms = 8000;  // a decoder that gives nothing for as long hangs
-
-// Frames in the order in which the decoder gives them, for one reader.
-class FrameQueue {
-  #frames = [];
-  #wake = null;
-  #failure = null;
-  #isOver = false;
-
-  constructor(patience_ms) {
-    this.patience_ms = patience_ms;
-  }
-
-  push(frame) {
-    if (this.#isOver) {
-      frame.close();
-      return;
-    }
-    this.#frames.push(frame);
-    this.#wake?.();
-  }
-
-  fail(error) {
-    this.#failure ??= error;
-    this.#wake?.();
-  }
-
-  // The next frame; throws what failed.
-  async next() {
-    const timer = setTimeout(
-        () => this.fail(new Error('the decoder gives no picture')), this.patience_ms);
-    try {
-      while (this.#frames.length === 0) {
-        if (this.#failure) throw this.#failure;
-        await new Promise((resolve) => { this.#wake = resolve; });
-        this.#wake = null;
-      }
-      return this.#frames.shift();
-    } finally {
-      clearTimeout(timer);
-    }
-  }
-
-  // Closes what is left, and what still comes.
-  end() {
-    this.#isOver = true;
-    for (const frame of this.#frames.splice(0)) frame.close();
-  }
-}
 
 function checkSize({visibleRect: {width, height}}, {picture_size}) {
   if (width === picture_size.width && height === picture_size.height) return;
@@ -70,49 +21,85 @@ function wayFor(frame, trial) {
   return trial.next;
 }
 
+// Decoders of chained video: each picture of the stack is a stream of its own.
+class Chain {
+  #decoders = [];
+  #sequence = 0;  // of the last atlas; 0 = none
+
+  constructor(patience_ms) {
+    this.patience_ms = patience_ms;
+  }
+
+  // pictures: access units of the atlas `sequence`, which refers to the atlas `reference`; 0 = to
+  // none. The decoders, one of each picture, which have begun with them.
+  begin(pictures, {sequence, reference}, configuration) {
+    if (reference !== 0 && reference !== this.#sequence) {
+      throw new Error(`it refers to atlas ${reference}, which was not decoded before it`);
+    }
+    this.#sequence = sequence;
+    while (this.#decoders.length > pictures.length) this.#decoders.pop().close();
+    return pictures.map((data, index) => {
+      const decoder = this.#decoders[index] ??= new PictureDecoder(this.patience_ms);
+      decoder.begin(configuration);
+      decoder.feed(data, reference === 0);
+      decoder.expectAll();
+      return decoder;
+    });
+  }
+
+  end() {
+    for (const decoder of this.#decoders) decoder.end();
+  }
+
+  close() {
+    for (const decoder of this.#decoders) decoder.close();
+    this.#decoders = [];
+    this.#sequence = 0;
+  }
+}
+
 export class VideoAtlases {
-  #decoder = null;
-  #configuration = '';  // as text
-  #frames = null;       // of the atlas that is being decoded
-  #timestamp_us = 0;    // of the next picture
+  #alone;  // decoder of atlases that need no other
+  #chain;
   #hardware = 'no-preference';
-  #ways = {};           // those that were begun, by name
+  #ways = {};  // those that were begun, by name
   #trial = new UploadTrial(Object.keys(kWays));
 
   // patience_ms: with a decoder that gives no picture
-  constructor(patience_ms = kPatience_ms) {
-    this.patience_ms = patience_ms;
+  constructor(patience_ms) {
+    this.#alone = new PictureDecoder(patience_ms);
+    this.#chain = new Chain(patience_ms);
   }
 
   // Name of the way that was measured to be the faster one; '' = not yet.
   get upload() { return this.#trial.kept; }
 
-  // pictures: access units, Uint8Array each; layout: the AtlasLayout. One call at a time.
-  // {bitmap} in the arrangement that the layout says, or {planes} of its stack. If a decoder fails,
-  // one without hardware tries the same atlas. Rejects with what is wrong then; the next atlas
-  // begins with a new decoder.
-  async decode(pictures, layout) {
+  // pictures: access units, Uint8Array each; layout: the AtlasLayout; link: {sequence, reference}
+  // of chained video; isShown: false where only the next atlas needs it. One call at a time.
+  // {bitmap} in the arrangement that the layout says, {planes} of its stack, or {} of one that is
+  // not shown. If a decoder fails, one without hardware tries the same atlas, unless it refers to
+  // another. Rejects with what is wrong then; the next atlas begins with a new decoder.
+  async decode(pictures, layout, {link = null, isShown = true} = {}) {
+    const job = {pictures, layout, link, isShown};
     try {
-      return await this.#decodeOnce(pictures, layout);
+      return await this.#decodeOnce(job);
     } catch (error) {
-      if (this.#hardware === 'prefer-software') throw error;
+      if (this.#hardware === 'prefer-software' || link?.reference) throw error;
       this.#hardware = 'prefer-software';
-      return this.#decodeOnce(pictures, layout);
+      return this.#decodeOnce(job);
     }
   }
 
-  async #decodeOnce(pictures, layout) {
-    const frames = new FrameQueue(this.patience_ms);
-    this.#frames = frames;
+  async #decodeOnce({pictures, layout, link, isShown}) {
     try {
-      this.#configure(layout.video);
-      this.#feed(pictures, frames);
-      return await this.#collect(frames, layout);
+      const next = this.#begin(pictures, layout.video, link);
+      return isShown ? await this.#collect(next, layout) : await this.#follow(next, layout);
     } catch (error) {
       this.close();
       throw error;
     } finally {
-      frames.end();
+      this.#alone.end();
+      this.#chain.end();
     }
   }
 
@@ -122,19 +109,43 @@ export class VideoAtlases {
   }
 
   close() {
-    if (this.#decoder && this.#decoder.state !== 'closed') this.#decoder.close();
-    this.#decoder = null;
+    this.#alone.close();
+    this.#chain.close();
     for (const way of Object.values(this.#ways)) way.close();
     this.#ways = {};
   }
 
+  // A function that gives the frame of each picture, in their order.
+  #begin(pictures, {codec_string, picture_size}, link) {
+    const configuration = {
+      codec: codec_string, codedWidth: picture_size.width, codedHeight: picture_size.height,
+      optimizeForLatency: true, hardwareAcceleration: this.#hardware,
+    };
+    if (link) {
+      const decoders = this.#chain.begin(pictures, link, configuration);
+      return (index) => decoders[index].next();
+    }
+    this.#alone.begin(configuration);
+    pictures.forEach((data, index) => this.#alone.feed(data, index === 0));
+    this.#alone.flush();
+    return () => this.#alone.next();
+  }
+
+  async #follow(next, {video}) {
+    for (let index = 0; index < video.picture_count; ++index) {
+      const frame = await next(index);
+      frame.close();
+    }
+    return {};
+  }
+
   // Time until the next frame is the decoder's. All other time is the way's.
-  async #collect(frames, layout) {
+  async #collect(next, layout) {
     let name = '';
     let way = null;
     let time_ms = 0;
     for (let index = 0; index < layout.video.picture_count; ++index) {
-      const frame = await frames.next();
+      const frame = await next(index);
       const begun_ms = performance.now();
       try {
         checkSize(frame, layout.video);
@@ -153,33 +164,5 @@ export class VideoAtlases {
     const made = await way.finish();
     this.#trial.note(name, time_ms + performance.now() - begun_ms);
     return made;
-  }
-
-  #configure({codec_string, picture_size}) {
-    const configuration = {
-      codec: codec_string, codedWidth: picture_size.width, codedHeight: picture_size.height,
-      optimizeForLatency: true, hardwareAcceleration: this.#hardware,
-    };
-    const text = JSON.stringify(configuration);
-    if (this.#decoder?.state === 'configured' && text === this.#configuration) return;
-    if (!this.#decoder || this.#decoder.state === 'closed') {
-      this.#decoder = new VideoDecoder({
-        output: (frame) => this.#frames.push(frame),
-        error: (error) => this.#frames.fail(error),
-      });
-    }
-    this.#decoder.configure(configuration);
-    this.#configuration = text;
-  }
-
-  #feed(pictures, frames) {
-    pictures.forEach((data, index) => {
-      this.#decoder.decode(new EncodedVideoChunk(
-          {type: index === 0 ? 'key' : 'delta', timestamp: this.#timestamp_us++, data}));
-    });
-    // Decoders may keep pictures until they know that no more come.
-    this.#decoder.flush().then(
-        () => frames.fail(new Error('the decoder gave fewer pictures than came')),
-        (error) => frames.fail(error));
   }
 }

@@ -13,6 +13,8 @@ const kLevels = [
 
 let video = null;      // AcceptedEncoding of H264; null = JPEG only
 let isGivenUp = false;
+let isChained = false;       // atlases are asked for that refer to each other
+let isChainGivenUp = false;
 
 async function isSupported({codec, picture_size_max: {width, height}}) {
   try {
@@ -43,9 +45,12 @@ export function acceptedEncodings() {
   return isOnLoopback() ? [{color: kJpeg}, video] : [video, {color: kJpeg}];
 }
 
-// encoding: AtlasEncoding as JSON; isWhole: all views of a display are asked for. Fewer have little
+// asked: AtlasEncoding as JSON; isWhole: all views of a display are asked for. Fewer have little
 // in common that video could use, and depth comes beside JPEG alone.
-export function withColor(encoding, isWhole) {
+export function withColor(asked, isWhole) {
+  const {prediction, ...alone} = asked;
+  const encoding = isChainGivenUp ? alone : asked;
+  isChained = encoding.prediction === 'PREDICTION_ACROSS_ATLASES';
   const isOpen = encoding.color === undefined;
   if (!isOpen && encoding.color !== kVideo) return encoding;
   const mayBeVideo = video && !isGivenUp && isWhole && !encoding.with_depth;
@@ -53,9 +58,17 @@ export function withColor(encoding, isWhole) {
   return {...encoding, color: kJpeg};
 }
 
-// The browser fails at video, with a reason: JPEG from now on. onChange(): to be asked for.
+// The browser fails at video, with a reason: if pictures refer to each other, each comes alone from
+// now on, else JPEG. onChange(): to be asked for.
 export function giveUpVideo(reason, onChange) {
   if (isGivenUp) return;
+  if (isChained) {
+    isChainGivenUp = true;
+    notice(`This browser could not follow the video (${reason}). Each picture comes alone from ` +
+           'now on.', 'bad');
+    onChange();
+    return;
+  }
   isGivenUp = true;
   notice(`This browser could not show the video (${reason}). JPEG pictures come from now on.`,
          'bad');

@@ -126,10 +126,17 @@ window.hang = async (path) => {
     close() { this.state = 'closed'; }
   };
   const atlas = await messageOf(path);
-  const decode = new VideoAtlases(300).decode(atlas.pictures, atlas.header.layout, 'planes');
+  const decode = new VideoAtlases(300).decode(atlas.pictures, atlas.header.layout);
   const reason = await decode.then(() => '', (error) => error.message);
   window.VideoDecoder = decoding;
   return reason;
+};
+
+// An atlas of a chain, decoded in the worker behind those before it.
+window.followed = async (path) => {
+  const atlas = await inWorker(await messageOf(path));
+  const {width, height} = atlas.header.layout.size;
+  return drawn(atlas, [0, 0, width, height], width, height);
 };
 
 // All of them at once, to the worker: the sequence of each that was decoded, null of one dropped.

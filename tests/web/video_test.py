@@ -148,6 +148,41 @@ class Video(unittest.TestCase):
         burst = self.browser.evaluate("burst(['0', '1', '2', '3', '4'])")
         self.assertEqual(burst, {"shown": [0, None, None, None, 4], "failures": []})
 
+    def code_chain(self, count):
+        """Messages of chained atlases, each moved against the one before: 1, 2, ... """
+        views = [np.roll(textured_views(), 3 * number, axis=2) for number in range(count)]
+        coded = coded_atlases.code_stacks(PROGRAM, views, 20, chained=True)
+        layout = coded_atlases.layout_of(5, 3, views[0])
+        for number, (video, units) in enumerate(coded, 1):
+            self.files.contents[str(number)] = coded_atlases.video_message(
+                layout, video, units, sequence=number, reference_sequence=number - 1)
+        return layout, views
+
+    def test_chained_atlases_are_decoded_in_order(self):
+        layout, views = self.code_chain(4)
+        for number in range(1, 5):
+            picture = self.browser.evaluate(f"followed('{number}')")
+            decoded = np.frombuffer(base64.b64decode(picture), np.uint8).reshape(
+                layout["size"]["height"], layout["size"]["width"], 4)[..., :3]
+            quilt = coded_atlases.quilt_of(views[number - 1], layout)
+            self.assertGreater(psnr(decoded, quilt), 35, number)
+
+    def test_all_of_a_chain_are_decoded_and_the_newest_is_shown(self):
+        self.code_chain(5)
+        burst = self.browser.evaluate("burst(['1', '2', '3', '4', '5'])")
+        self.assertEqual(burst, {"shown": [1, None, None, None, 5], "failures": []})
+        again = self.browser.evaluate("burst(['1', '2'])")
+        self.assertEqual(again["shown"], [1, 2], "one that needs no other begins anew")
+
+    def test_a_chain_with_a_missing_atlas_is_told(self):
+        self.code_chain(3)
+        burst = self.browser.evaluate("burst(['1'])")
+        self.assertEqual(burst["shown"], [1])
+        broken = self.browser.evaluate("burst(['3'])")
+        self.assertEqual(broken["shown"], [None])
+        self.assertIn("refers to atlas 2", broken["failures"][-1])
+        self.assertEqual(self.browser.evaluate("burst(['1'])")["shown"], [1])
+
     def test_what_cannot_be_decoded_is_told_and_the_next_one_is_shown(self):
         layout = self.code("good", textured_views())
         other_size = {**self.video, "picture_size": {"width": 640, "height": 480}}
