@@ -222,6 +222,11 @@ class BenchTest(unittest.TestCase):
         matched = still["h264"][len(sizes) // 2]
         self.assertGreater(matched["psnr_y_db"], still["jpeg"]["psnr_y_db"] - 1.5)
         self.assertGreater(still["smaller"], 1)
+        standing, moving = report["chained"]
+        self.assertEqual(standing["name"], "built-in scene, chained, still")
+        self.assertEqual(standing["pictures"], 3)
+        self.assertGreater(standing["smaller"], moving["smaller"])
+        self.assertLess(standing["h264_at_psnr_of_jpeg"]["bytes"], standing["first_bytes"])
 
     def test_a_load_that_does_not_exist(self):
         finished = subprocess.run([PROGRAM, "trace", "--only", "no such load"],

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -33,6 +35,10 @@ constexpr uint32_t kQuality = 85;
 constexpr int kQpSteps[] = {-4, -2, 0, 2, 4};
 // Sideways places of the moving camera, m.
 constexpr double kSways_m[] = {-0.11, 0.02, 0.08};
+// Chained atlases: one that needs no other, and those behind it, at 30 Hz.
+constexpr int kChainCount = 4;
+constexpr double kChainStep_s = 1.0 / 30;
+constexpr double kSwaySpeed_m_per_s = 0.2;
 
 struct Arguments {
   bool prints_json = false;
@@ -106,6 +112,76 @@ Coded atError(const std::vector<Coded>& codings, double psnr_db) {
   return between(codings[i - 1], codings[i], psnr_db);
 }
 
+// A camera that moves sideways at so many m/s, and things that move by themselves.
+std::vector<NamedLoad> chainOf(const std::string& name, double speed_m_per_s) {
+  std::vector<NamedLoad> chain;
+  for (int i = 0; i < kChainCount; ++i) {
+    const double time_s = i * kChainStep_s;
+    chain.push_back(builtIn(name, speed_m_per_s * time_s, time_s));
+  }
+  return chain;
+}
+
+Coded meanOf(const std::vector<Coded>& all) {
+  Coded mean;
+  double bytes = 0;
+  for (const Coded& one : all) {
+    bytes += double(one.bytes) / double(all.size());
+    mean.psnr_db += one.psnr_db / double(all.size());
+    mean.encode_ms += one.encode_ms / double(all.size());
+    mean.decode_ms += one.decode_ms / double(all.size());
+  }
+  mean.bytes = uint64_t(bytes);
+  return mean;
+}
+
+// The mean of the atlases that refer to others; `first`: the one that does not.
+Coded codeChain(std::deque<VideoCoding>& codings, uint32_t qp, Coded& first) {
+  ChainEnds chain;
+  std::vector<Coded> others;
+  for (VideoCoding& coding : codings) others.push_back(coding.asChained(qp, chain));
+  first = others.front();
+  others.erase(others.begin());
+  return meanOf(others);
+}
+
+Json measureChain(const Device& device, const LoadMaker& maker, const std::string& name,
+                  double speed_m_per_s, const Arguments& arguments) {
+  std::deque<VideoCoding> codings;  // which do not move
+  for (const NamedLoad& load : chainOf(name, speed_m_per_s)) {
+    const BenchLoad made = load.make(maker);
+    ViewloomContestant viewloom(device, true);
+    viewloom.prepare(made);
+    viewloom.build();
+    viewloom.trace();
+    codings.emplace_back(*made.job.layout, viewloom.picture().rgba);
+  }
+  const Coded jpeg = measured(arguments.round_count, [&] {
+    std::vector<Coded> all;
+    for (VideoCoding& coding : codings) all.push_back(coding.asJpeg(kQuality));
+    return meanOf(all);
+  });
+  std::vector<Coded> firsts(std::size(kQpSteps));
+  std::vector<Coded> chains;
+  for (const int step : kQpSteps) {
+    const auto qp = uint32_t(int(matchedVideoQp(kQuality)) + step);
+    Coded& first = firsts[chains.size()];
+    chains.push_back(
+        measured(arguments.round_count, [&] { return codeChain(codings, qp, first); }));
+  }
+  const Coded same = atError(chains, jpeg.psnr_db);
+  const Coded first = atError(firsts, jpeg.psnr_db);
+  return {{"name", name},
+          {"pictures", codings.front().chainedPictureCount()},
+          {"jpeg_quality", kQuality},
+          {"jpeg", jsonOf(jpeg)},
+          {"h264_at_psnr_of_jpeg", jsonOf(same)},
+          {"first_bytes", first.bytes},
+          {"smaller", double(jpeg.bytes) / double(same.bytes)},
+          {"encode_cpu", same.encode_ms / jpeg.encode_ms},
+          {"decode_cpu", same.decode_ms / jpeg.decode_ms}};
+}
+
 Json measureLoad(const Device& device, const BenchLoad& load, const Arguments& arguments) {
   ViewloomContestant viewloom(device, true);
   viewloom.prepare(load);
@@ -138,7 +214,9 @@ void printTable(const Json& json) {
   std::cout << "| atlas | JPEG KB | dB | H.264 KB | dB | smaller | encode CPU | decode CPU |\n"
             << "|---|---|---|---|---|---|---|---|\n";
   char row[240];
-  for (const Json& load : json["loads"]) {
+  Json all = json["loads"];
+  for (const Json& chain : json["chained"]) all.push_back(chain);
+  for (const Json& load : all) {
     const Json& jpeg = load["jpeg"];
     const Json& video = load["h264_at_psnr_of_jpeg"];
     std::snprintf(row, sizeof row, "| %s | %.0f | %.2f | %.0f | %.2f | %.2f | %.2f | %.2f |\n",
@@ -157,6 +235,10 @@ void measureAll(const Arguments& arguments) {
   for (const NamedLoad& load : loadsOf(arguments)) {
     json["loads"].push_back(measureLoad(device, load.make(maker), arguments));
   }
+  json["chained"] =
+      Json::array({measureChain(device, maker, "built-in scene, chained, still", 0, arguments),
+                   measureChain(device, maker, "built-in scene, chained, moving",
+                                kSwaySpeed_m_per_s, arguments)});
   json["skipped"] = Json::array();
   for (const SkippedLoad& skipped : recordedLoads(arguments.data).skipped) {
     json["skipped"].push_back({{"name", skipped.name}, {"reason", skipped.reason}});

@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "pipeline/video_atlas.h"
 #include "rpc/layout_to_proto.h"
 #include "shared/ycbcr.h"
 #include "support/ycbcr_planes.h"
@@ -24,8 +23,8 @@ double usedMs() {
 // Rows that worker threads hand on at a time.
 constexpr uint32_t kStripRows = 128;
 
-AtlasLayout stackedOf(AtlasLayout layout) {
-  const absl::Status status = stackViews(layout);
+AtlasLayout stackedOf(AtlasLayout layout, Prediction prediction) {
+  const absl::Status status = stackViews(layout, prediction);
   if (!status.ok()) throw std::runtime_error(std::string(status.message()));
   return layout;
 }
@@ -71,10 +70,16 @@ AtlasBand bandOf(const EncodedBand& band, v1::BandEncoding encoding) {
 
 VideoCoding::VideoCoding(const AtlasLayout& layout, std::vector<uint32_t> rgba)
     : quilt_(layout),
-      stacked_(stackedOf(layout)),
       rgba_(std::move(rgba)),
       quilt_planes_(planesOf(rgba_, quilt_.size_px)),
-      stacked_planes_(planesOf(stack(quilt_, stacked_, rgba_), stacked_.size_px)) {}
+      alone_(stackedAs(Prediction::kWithinAtlas)),
+      chained_(stackedAs(Prediction::kAcrossAtlases)) {}
+
+VideoCoding::Stacked VideoCoding::stackedAs(Prediction prediction) const {
+  Stacked stacked{.layout = stackedOf(quilt_, prediction), .planes = {}};
+  stacked.planes = planesOf(stack(quilt_, stacked.layout, rgba_), stacked.layout.size_px);
+  return stacked;
+}
 
 Atlas VideoCoding::emptyAtlas(const AtlasLayout& layout, const EncodingSpec& encoding) const {
   return {.layout = std::make_shared<const v1::AtlasLayout>(layoutToProto(layout, encoding)),
@@ -84,10 +89,10 @@ Atlas VideoCoding::emptyAtlas(const AtlasLayout& layout, const EncodingSpec& enc
 }
 
 // The error counts the pixels of the atlas, padding included.
-void VideoCoding::finish(const Atlas& atlas, Coded& coded) const {
+void VideoCoding::finish(const Atlas& atlas, ColorDecoder& decoder, Coded& coded) const {
   coded.bytes = atlas.byteCount();
   const double begun_ms = usedMs();
-  const absl::StatusOr<AtlasPicture> picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
+  const absl::StatusOr<AtlasPicture> picture = decoder.decode(atlas);
   coded.decode_ms = usedMs() - begun_ms;
   if (!picture.ok()) throw std::runtime_error(std::string(picture.status().message()));
   double sum = 0;
@@ -115,19 +120,44 @@ Coded VideoCoding::asJpeg(uint32_t quality) {
   for (const EncodedBand& band : bands) {
     atlas.bands.push_back(bandOf(band, v1::BAND_ENCODING_JPEG));
   }
-  finish(atlas, coded);
+  ColorDecoder decoder;
+  finish(atlas, decoder, coded);
   return coded;
 }
 
 Coded VideoCoding::asVideo(uint32_t qp) {
   const EncodingSpec encoding = {.color = BandEncoding::kH264, .video_qp = qp};
-  const BandPixels pixels = planarPixels(stacked_planes_, stacked_.size_px, ColorForm::kYcbcr420);
-  const uint32_t height_px = stacked_.imageSize().height;
-  std::vector<EncodedBand> bands;
   Coded coded;
+  const Atlas atlas = codePictures(alone_, encoding, {.qp = qp}, coded);
+  ColorDecoder decoder;
+  finish(atlas, decoder, coded);
+  return coded;
+}
+
+Coded VideoCoding::asChained(uint32_t qp, ChainEnds& chain) {
+  const EncodingSpec encoding = {
+      .color = BandEncoding::kH264, .video_qp = qp, .prediction = Prediction::kAcrossAtlases};
+  const uint64_t before = chain.sequence++;
+  Coded coded;
+  Atlas atlas =
+      codePictures(chained_, encoding,
+                   {.qp = qp, .chain = chain.encoders, .is_self_contained = before == 0}, coded);
+  atlas.header.set_sequence(chain.sequence);
+  atlas.header.set_reference_sequence(before);
+  finish(atlas, chain.decoder, coded);
+  return coded;
+}
+
+Atlas VideoCoding::codePictures(const Stacked& stacked, const EncodingSpec& encoding,
+                                VideoStart start, Coded& coded) {
+  const AtlasLayout& layout = stacked.layout;
+  const BandPixels pixels = planarPixels(stacked.planes, layout.size_px, ColorForm::kYcbcr420);
+  const uint32_t height_px = layout.imageSize().height;
+  std::vector<EncodedBand> bands;
   const double begun_ms = usedMs();
-  VideoAtlas video(*stacked_.stack, qp);
-  for (uint32_t picture = 0; picture < pictureCount(); ++picture) {
+  VideoAtlas video(*layout.stack, encoding.video_qp);
+  video.begin(std::move(start));
+  for (uint32_t picture = 0; picture < layout.stack->picture_count; ++picture) {
     for (uint32_t row = 0; row < height_px; row += kStripRows) {
       BandPixels rows =
           rowsOf(pixels, picture * height_px + row, std::min(kStripRows, height_px - row));
@@ -142,12 +172,11 @@ Coded VideoCoding::asVideo(uint32_t qp) {
                      .bytes = std::move(made->bytes)});
   }
   coded.encode_ms = usedMs() - begun_ms;
-  Atlas atlas = emptyAtlas(stacked_, encoding);
+  Atlas atlas = emptyAtlas(layout, encoding);
   for (const EncodedBand& band : bands) {
     atlas.bands.push_back(bandOf(band, v1::BAND_ENCODING_H264));
   }
-  finish(atlas, coded);
-  return coded;
+  return atlas;
 }
 
 }  // namespace viewloom::bench

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// One atlas, packed and unpacked as server and client do it, in two ways.
+// One atlas, packed and unpacked as server and client do it, in several ways.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,11 @@
 
 #include "display/atlas_layout.h"
 #include "encode/band_encoder.h"
+#include "encode/video_chain.h"
 #include "encode/video_encoders.h"
 #include "lib/atlas.h"
+#include "lib/color_decoder.h"
+#include "pipeline/video_atlas.h"
 
 namespace viewloom::bench {
 
@@ -21,25 +24,44 @@ struct Coded {
   double decode_ms = 0;  // the same, until RGB of the whole atlas
 };
 
+// Server and client of chained video, between two atlases. Thread-safety: none.
+struct ChainEnds {
+  std::shared_ptr<VideoChain> encoders = std::make_shared<VideoChain>();
+  ColorDecoder decoder;
+  uint64_t sequence = 0;  // of the last atlas; 0 = none
+};
+
 // Thread-safety: none.
 class VideoCoding {
  public:
   // Pixels of a layout without a stack: uint32_t[row][column], red in the low byte.
   VideoCoding(const AtlasLayout& layout, std::vector<uint32_t> rgba);
 
-  uint32_t pictureCount() const { return stacked_.stack->picture_count; }
+  uint32_t pictureCount() const { return alone_.layout.stack->picture_count; }
+  uint32_t chainedPictureCount() const { return chained_.layout.stack->picture_count; }
   Coded asJpeg(uint32_t quality);
   Coded asVideo(uint32_t qp);
+  // Codes it as the next atlas of a chain. The first needs no other.
+  Coded asChained(uint32_t qp, ChainEnds& chain);
 
  private:
+  // The views in a stack, as engines make them: Y'CbCr 4:2:0.
+  struct Stacked {
+    AtlasLayout layout;
+    std::vector<uint8_t> planes;
+  };
+
+  Stacked stackedAs(Prediction prediction) const;
+  Atlas codePictures(const Stacked& stacked, const EncodingSpec& encoding, VideoStart start,
+                     Coded& coded);
   Atlas emptyAtlas(const AtlasLayout& layout, const EncodingSpec& encoding) const;
-  void finish(const Atlas& atlas, Coded& coded) const;
+  void finish(const Atlas& atlas, ColorDecoder& decoder, Coded& coded) const;
 
   AtlasLayout quilt_;
-  AtlasLayout stacked_;
-  std::vector<uint32_t> rgba_;           // of the quilt
-  std::vector<uint8_t> quilt_planes_;    // as engines make them: Y'CbCr 4:2:0
-  std::vector<uint8_t> stacked_planes_;  // the same
+  std::vector<uint32_t> rgba_;         // of the quilt
+  std::vector<uint8_t> quilt_planes_;  // as engines make them: Y'CbCr 4:2:0
+  Stacked alone_;
+  Stacked chained_;
   BytePool bytes_{64};
   BytePool planes_{64};
   BandEncoder jpeg_{bytes_};
