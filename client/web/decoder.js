@@ -68,7 +68,8 @@ export function recycle(planes) {
 export class Decoder {
   #worker = null;
   #decoding = null;
-  #waiting = [];  // oldest first
+  #waiting = [];    // oldest first
+  #isLost = false;  // an atlas that others refer to was not decoded
   #isClosed = false;
 
   // onDecoded(atlas with bitmap or planes, release() of them, and decode_ms), onDropped(atlas),
@@ -100,11 +101,17 @@ export class Decoder {
 
   decode(atlas) {
     if (this.#isClosed) return;
+    const refers = Boolean(linkOf(atlas.header)?.reference);
+    this.#isLost &&= refers;
+    if (this.#isLost) {
+      this.onDropped(atlas);
+      return;
+    }
     if (!this.#decoding) {
       this.#start(atlas);
       return;
     }
-    if (!linkOf(atlas.header)?.reference) {  // it needs none of those that wait
+    if (!refers) {  // it needs none of those that wait
       for (const overtaken of this.#waiting.splice(0)) this.onDropped(overtaken);
     }
     this.#waiting.push(atlas);
@@ -130,6 +137,7 @@ export class Decoder {
     if (this.#isClosed) return;
     const atlas = this.#decoding;
     this.#decoding = null;
+    if (error) this.#loseFollowers();
     const next = this.#waiting.shift();
     if (next) this.#start(next);
     if (error) {
@@ -146,6 +154,14 @@ export class Decoder {
     atlas.release = () => this.#release(made);
     atlas.decode_ms = performance.now() - atlas.decodeStarted_ms;
     this.onDecoded(atlas);
+  }
+
+  // Those that wait for what could not be decoded.
+  #loseFollowers() {
+    while (this.#waiting.length > 0 && linkOf(this.#waiting[0].header)?.reference) {
+      this.onDropped(this.#waiting.shift());
+    }
+    this.#isLost = this.#waiting.length === 0;
   }
 
   #release({bitmap, planes}) {

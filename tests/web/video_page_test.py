@@ -35,6 +35,10 @@ class VideoPage(unittest.TestCase):
         self.files = coded_atlases.PageFiles({
             **coded_atlases.PAGE_ANSWERS,
             "video": coded_atlases.video_message(layout, video, units),
+            "lost": coded_atlases.video_message(layout, video, units, reference_sequence=5,
+                                                sequence=6),
+            "alone": coded_atlases.video_message(layout, video, units, sequence=8, delivery=2,
+                                                 change_count=1),
             "broken": coded_atlases.video_message(layout, video, broken, delivery=2),
             "jpeg": coded_atlases.jpeg_message(layout, self.views, sequence=7, delivery=3,
                                                change_count=1)})
@@ -129,6 +133,16 @@ class VideoPage(unittest.TestCase):
         self.assertIn("JPEG pictures come from now on",
                       self.browser.evaluate("document.getElementById('notice').textContent"))
         self.assertIn({"shown": 2}, self.browser.evaluate("said"))  # there is room for another
+        self.assert_quilt()
+
+    def test_a_page_that_cannot_follow_a_chain_gets_pictures_that_come_alone(self):
+        self.inject("window.onChange = () => { window.wanted = ['alone']; };")
+        self.open("lost", encoding={"color": VIDEO, "prediction": "PREDICTION_ACROSS_ATLASES"})
+        self.wait_for_picture(8)
+        (change,) = self.browser.evaluate("said.filter(m => m.change).map(m => m.change)")
+        self.assertEqual(change, {"encoding": {"color": VIDEO}})
+        self.assertIn("comes alone",
+                      self.browser.evaluate("document.getElementById('notice').textContent"))
         self.assert_quilt()
 
     def test_a_reconnection_after_a_failure_accepts_jpeg_alone(self):
