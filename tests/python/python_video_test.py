@@ -163,9 +163,9 @@ class Video(unittest.TestCase):
         add(1)  # nobody takes the one before
         add(2)
         atlas = inbox.take()
-        for view, expected in enumerate(views[2]):
+        for view, expected in enumerate(views[2]):  # with an edge where they were rolled
             error = atlas.view(view).astype(float) - expected
-            self.assertLess(np.sqrt(np.mean(error ** 2)), 3, f"view {view}")
+            self.assertLess(np.sqrt(np.mean(error ** 2)), 5, f"view {view}")
         add(0)
         with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*refers to atlas 2"):
             add(2)
