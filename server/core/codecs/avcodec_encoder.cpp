@@ -162,29 +162,32 @@ absl::StatusOr<std::unique_ptr<VideoEncoder>> AvcodecEncoder::make(const Form& f
 absl::StatusOr<std::unique_ptr<VideoEncoder>> AvcodecEncoder::tryToMake(const Form& form,
                                                                         const Attempt& attempt,
                                                                         const VideoFormat& format) {
-  std::unique_ptr<AvcodecEncoder> encoder(new AvcodecEncoder(format));
+  std::unique_ptr<AvcodecEncoder> encoder(new AvcodecEncoder(form, attempt, format));
   if (!encoder->frame_ || !encoder->host_frame_ || !encoder->packet_) {
     return avStatus(AVERROR(ENOMEM), "");
   }
-  if (form.has_vaapi) VIEWLOOM_RETURN_IF_ERROR(encoder->openDevice(attempt.device));
-  VIEWLOOM_RETURN_IF_ERROR(encoder->open(form, attempt));
+  if (form.has_vaapi) VIEWLOOM_RETURN_IF_ERROR(encoder->openDevice());
+  VIEWLOOM_RETURN_IF_ERROR(encoder->open());
   return std::unique_ptr<VideoEncoder>(std::move(encoder));
 }
 
-AvcodecEncoder::AvcodecEncoder(const VideoFormat& format)
-    : format_(format),
+AvcodecEncoder::AvcodecEncoder(const Form& form, const Attempt& attempt, const VideoFormat& format)
+    : form_(form),
+      attempt_(attempt),
+      format_(format),
       frame_(av_frame_alloc()),
       host_frame_(av_frame_alloc()),
       packet_(av_packet_alloc()) {}
 
 AvcodecEncoder::~AvcodecEncoder() = default;
 
-absl::Status AvcodecEncoder::openDevice(const std::string& device) {
+absl::Status AvcodecEncoder::openDevice() {
   constexpr int kPicturesOnDevice = 4;
   beginCall();
   AVBufferRef* opened = nullptr;
   VIEWLOOM_RETURN_IF_ERROR(avStatus(
-      av_hwdevice_ctx_create(&opened, AV_HWDEVICE_TYPE_VAAPI, device.c_str(), nullptr, 0), device));
+      av_hwdevice_ctx_create(&opened, AV_HWDEVICE_TYPE_VAAPI, attempt_.device.c_str(), nullptr, 0),
+      attempt_.device));
   const Owned<AVBufferRef> owner(opened);
   frames_.reset(av_hwframe_ctx_alloc(opened));
   if (!frames_) return avStatus(AVERROR(ENOMEM), "");
@@ -194,30 +197,43 @@ absl::Status AvcodecEncoder::openDevice(const std::string& device) {
   frames.width = int(format_.size_px.width);
   frames.height = int(format_.size_px.height);
   frames.initial_pool_size = kPicturesOnDevice;
-  VIEWLOOM_RETURN_IF_ERROR(avStatus(av_hwframe_ctx_init(frames_.get()), device));
+  VIEWLOOM_RETURN_IF_ERROR(avStatus(av_hwframe_ctx_init(frames_.get()), attempt_.device));
   host_frame_->format = AV_PIX_FMT_NV12;
   host_frame_->width = frames.width;
   host_frame_->height = frames.height;
   return avStatus(av_frame_get_buffer(host_frame_.get(), 0), "");
 }
 
-absl::Status AvcodecEncoder::open(const Form& form, const Attempt& attempt) {
+absl::Status AvcodecEncoder::open() {
   beginCall();
-  const AVCodec* const codec = avcodec_find_encoder_by_name(form.name.c_str());
+  const AVCodec* const codec = avcodec_find_encoder_by_name(form_.name.c_str());
   if (codec == nullptr) return absl::UnavailableError("libavcodec was built without it");
-  context_.reset(avcodec_alloc_context3(codec));
-  if (!context_) return avStatus(AVERROR(ENOMEM), "");
-  setFormat(format_, form.takes_slices, *context_);
-  context_->pix_fmt = frames_ ? AV_PIX_FMT_VAAPI : AV_PIX_FMT_YUV420P;
-  if (frames_) context_->hw_frames_ctx = av_buffer_ref(frames_.get());
+  Owned<AVCodecContext> context(avcodec_alloc_context3(codec));
+  if (!context) return avStatus(AVERROR(ENOMEM), "");
+  setFormat(format_, form_.takes_slices, *context);
+  context->pix_fmt = frames_ ? AV_PIX_FMT_VAAPI : AV_PIX_FMT_YUV420P;
+  if (frames_) context->hw_frames_ctx = av_buffer_ref(frames_.get());
   AVDictionary* options = nullptr;
   av_dict_set_int(&options, "qp", format_.qp, 0);
-  for (const Option& option : attempt.options) {
+  for (const Option& option : attempt_.options) {
     av_dict_set(&options, option.name.c_str(), option.value.c_str(), 0);
   }
-  const int code = avcodec_open2(context_.get(), codec, &options);
+  const int code = avcodec_open2(context.get(), codec, &options);
   av_dict_free(&options);
-  return avStatus(code, attempt.device);
+  VIEWLOOM_RETURN_IF_ERROR(avStatus(code, attempt_.device));
+  context_ = std::move(context);
+  needs_idr_ = true;
+  return absl::OkStatus();
+}
+
+absl::Status AvcodecEncoder::setQp(uint32_t qp) {
+  if (qp == format_.qp) return absl::OkStatus();
+  VideoFormat format = format_;
+  format.qp = qp;
+  VIEWLOOM_RETURN_IF_ERROR(checkVideoFormat(format, form_.limit));
+  format_ = format;
+  context_ = nullptr;  // before the next one is opened: devices have few
+  return absl::OkStatus();
 }
 
 absl::Status AvcodecEncoder::encode(const VideoPicture& picture, Reference reference,
@@ -228,6 +244,7 @@ absl::Status AvcodecEncoder::encode(const VideoPicture& picture, Reference refer
                                              picture.size_px.height, " px for an encoder of ",
                                              format_.size_px.width, "x", format_.size_px.height));
   }
+  if (!context_) VIEWLOOM_RETURN_IF_ERROR(open());
   const bool is_idr = std::exchange(needs_idr_, true) || reference == Reference::kNone;
   beginCall();
   VIEWLOOM_RETURN_IF_ERROR(send(picture, is_idr));

@@ -44,6 +44,8 @@ class AvcodecEncoder final : public VideoEncoder {
   ~AvcodecEncoder() override;
 
   const VideoFormat& format() const override { return format_; }
+  // The next picture opens the encoder of libavcodec anew: most have no other way.
+  absl::Status setQp(uint32_t qp) override;
   absl::Status encode(const VideoPicture& picture, Reference reference,
                       std::vector<uint8_t>& access_unit) override;
 
@@ -67,19 +69,21 @@ class AvcodecEncoder final : public VideoEncoder {
                                                                  const Attempt& attempt,
                                                                  const VideoFormat& format);
 
-  explicit AvcodecEncoder(const VideoFormat& format);
-  absl::Status openDevice(const std::string& device);
-  absl::Status open(const Form& form, const Attempt& attempt);
+  AvcodecEncoder(const Form& form, const Attempt& attempt, const VideoFormat& format);
+  absl::Status openDevice();
+  absl::Status open();
   absl::Status upload(const VideoPicture& picture);
   absl::Status send(const VideoPicture& picture, bool is_idr);
   absl::Status receive(bool is_idr, std::vector<uint8_t>& access_unit);
 
-  const VideoFormat format_;
+  const Form form_;
+  const Attempt attempt_;
+  VideoFormat format_;
   Owned<AVBufferRef> frames_;  // pictures of the device; none = the encoder takes those of memory
   Owned<AVFrame> frame_;       // what is sent
   Owned<AVFrame> host_frame_;  // the same before it is on the device
   Owned<AVPacket> packet_;
-  Owned<AVCodecContext> context_;
+  Owned<AVCodecContext> context_;  // none = to be opened
   int64_t next_time_ = 0;
   bool needs_idr_ = true;  // at the begin, and after an error
 };

@@ -16,6 +16,8 @@ class FallbackEncoder final : public VideoEncoder {
                   std::function<void(const absl::Status& failure)> on_failure);
 
   const VideoFormat& format() const override { return encoder_->format(); }
+  // Where the first encoder fails, the other one begins with this quantisation.
+  absl::Status setQp(uint32_t qp) override;
   // The picture at which the first encoder fails becomes an IDR picture of the other one, so
   // readers decode on. Errors as of the other encoder, or of the first if there is no other for
   // such pictures.
@@ -23,6 +25,11 @@ class FallbackEncoder final : public VideoEncoder {
                       std::vector<uint8_t>& access_unit) override;
 
  private:
+  // Whether another encoder may go on after such a result.
+  bool isReplaceable(const absl::Status& result) const;
+  // `failure` if there is no other for this format.
+  absl::Status replace(const VideoFormat& format, const absl::Status& failure);
+
   std::unique_ptr<VideoEncoder> encoder_;
   MakeVideoEncoder make_other_;  // empty once it was called
   const std::function<void(const absl::Status& failure)> on_failure_;

@@ -48,8 +48,9 @@ class VideoEncoder {
   virtual ~VideoEncoder() = default;
 
   virtual const VideoFormat& format() const = 0;
-  // Quantisation of the pictures to come, kVideoQpMin..51. They may refer to those before.
-  // INVALID_ARGUMENT out of range, INTERNAL if the encoder fails.
+  // Quantisation of the pictures to come, kVideoQpMin..51. They may refer to those before; an
+  // encoder that has to begin anew for it codes the next one without a reference.
+  // INVALID_ARGUMENT for one that make() would refuse, INTERNAL if the encoder fails.
   virtual absl::Status setQp(uint32_t qp) = 0;
   // Replaces the content of `access_unit`. The first picture has no reference, whatever is asked.
   // INVALID_ARGUMENT for a picture of another size, INTERNAL if the encoder fails.

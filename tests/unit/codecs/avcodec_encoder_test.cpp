@@ -114,6 +114,30 @@ TEST(AvcodecEncoder, takesTheQuantisation) {
   EXPECT_GT(bytesAt(30), bytesAt(kVideoQpMax));
 }
 
+TEST(AvcodecEncoder, changesTheQuantisationBetweenPictures) {
+  const SizePx size_px{320, 240};
+  const auto encoder = encoderOf({.size_px = size_px, .qp = 24});
+  auto decoder = OpenH264Decoder::make();
+  std::vector<bool> are_idr;
+  std::vector<double> psnr_db;
+  for (const uint32_t qp : {24u, 24u, 51u, 51u, 20u}) {
+    ASSERT_TRUE(encoder->setQp(qp).ok());
+    EXPECT_EQ(encoder->format().qp, qp);
+    const SamplePicture sample = SamplePicture::texture(size_px, 2 * int(are_idr.size()));
+    AccessUnit unit;
+    const absl::Status status = encoder->encode(sample.video(), Reference::kPictureBefore, unit);
+    ASSERT_TRUE(status.ok()) << status;
+    are_idr.push_back(typesOf(unit).back() == NalType::kIdrSlice);
+    const auto picture = (*decoder)->decode(unit, size_px);
+    ASSERT_TRUE(picture.ok()) << picture.status();
+    psnr_db.push_back(psnrOfLuma(*picture, sample.video()));
+  }
+  EXPECT_EQ(are_idr, (std::vector<bool>{true, false, true, false, true}));
+  EXPECT_LT(psnr_db[2], psnr_db[1] - 6);
+  EXPECT_GT(psnr_db[4], psnr_db[3] + 6);
+  EXPECT_EQ(encoder->setQp(kVideoQpMin - 1).code(), absl::StatusCode::kInvalidArgument);
+}
+
 TEST(AvcodecEncoder, codesSlicesOnSeveralThreads) {
   const auto encoder = encoderOf({.size_px = {640, 480}, .thread_count = 3});
   EXPECT_EQ(typesOf(coded(*encoder, 2, 2)[1]), std::vector<NalType>(3, NalType::kSlice));

@@ -69,38 +69,6 @@ TEST(OpenH264, decodesEveryPictureOfAStackRightAway) {
   }
 }
 
-TEST(OpenH264, changesTheQuantisationWithoutAnotherIdrPicture) {
-  const SizePx size_px{322, 202};
-  for (const uint32_t thread_count : {1u, 2u}) {
-    const auto encoder = encoderOf({.size_px = size_px, .qp = 24, .thread_count = thread_count});
-    const auto decoder = newDecoder();
-    std::vector<double> psnr_db;
-    std::vector<size_t> sizes;
-    for (const uint32_t qp : {24u, 24u, 51u, 20u, 20u}) {
-      ASSERT_TRUE(encoder->setQp(qp).ok());
-      EXPECT_EQ(encoder->format().qp, qp);
-      const int index = int(sizes.size());
-      const SamplePicture sample = SamplePicture::texture(size_px, 2 * index);
-      const AccessUnit unit = coded(*encoder, sample, referenceOf(index));
-      EXPECT_EQ(typesOf(unit).back() == NalType::kIdrSlice, index == 0);
-      const auto picture = decoder->decode(unit, size_px);
-      ASSERT_TRUE(picture.ok()) << picture.status();
-      psnr_db.push_back(psnrOfLuma(*picture, sample.video()));
-      sizes.push_back(unit.size());
-    }
-    EXPECT_LT(psnr_db[2], psnr_db[1] - 6);
-    EXPECT_GT(psnr_db[4], psnr_db[2] + 3);
-    EXPECT_GT(sizes[3], 2 * sizes[2]);
-  }
-}
-
-TEST(OpenH264, refusesAQuantisationThatIsNotSafe) {
-  const auto encoder = encoderOf({.size_px = {64, 48}, .qp = 24});
-  EXPECT_EQ(encoder->setQp(19).code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_EQ(encoder->setQp(52).code(), absl::StatusCode::kInvalidArgument);
-  EXPECT_EQ(encoder->format().qp, 24u);
-}
-
 TEST(OpenH264, beginsEachAtlasWithAPictureOfItsOwn) {
   const auto encoder = encoderOf({.size_px = {64, 48}});
   for (int atlas = 0; atlas < 3; ++atlas) {

@@ -13,9 +13,10 @@
 
 namespace viewloom::test {
 
-// Changes a call of the encoder, number `call` from 0.
+// Changes a call of encode(), number `call` from 0, or of setQp().
 struct EncoderPlan {
   std::function<absl::Status(int call)> before = [](int) { return absl::OkStatus(); };
+  std::function<absl::Status(uint32_t qp)> before_qp = [](uint32_t) { return absl::OkStatus(); };
   std::function<VideoPicture(VideoPicture)> picture = [](VideoPicture given) { return given; };
   std::function<Reference(Reference)> reference = [](Reference given) { return given; };
   std::function<void(std::vector<uint8_t>&)> after = [](std::vector<uint8_t>&) {};
@@ -27,6 +28,10 @@ class PlannedEncoder final : public VideoEncoder {
       : encoder_(std::move(encoder)), plan_(std::move(plan)) {}
 
   const VideoFormat& format() const override { return encoder_->format(); }
+  absl::Status setQp(uint32_t qp) override {
+    VIEWLOOM_RETURN_IF_ERROR(plan_.before_qp(qp));
+    return encoder_->setQp(qp);
+  }
   absl::Status encode(const VideoPicture& picture, Reference reference,
                       std::vector<uint8_t>& access_unit) override {
     VIEWLOOM_RETURN_IF_ERROR(plan_.before(call_++));
