@@ -81,12 +81,29 @@ struct VideoEncoders::Shelf final : IdleMemory {
 VideoEncoders::VideoEncoders(uint32_t thread_count, VideoEncoderChoicePtr choice)
     : thread_count_(thread_count), choice_(std::move(choice)), shelf_(std::make_shared<Shelf>()) {}
 
-absl::StatusOr<EncoderPtr> VideoEncoders::take(SizePx picture_px, uint32_t qp) {
+VideoFormat VideoEncoders::formatOf(SizePx picture_px, uint32_t qp) const {
   const uint32_t slice_count_max = std::max(picture_px.height / kSliceRowsMin, 1U);
   VideoFormat format = viewFormat(picture_px, qp);
   if (qp >= kThreadedQpMin) format.thread_count = std::min(thread_count_, slice_count_max);
+  return format;
+}
+
+absl::StatusOr<EncoderPtr> VideoEncoders::take(SizePx picture_px, uint32_t qp) {
+  const VideoFormat format = formatOf(picture_px, qp);
   if (EncoderPtr waiting = shelf_->take(format)) return waiting;
   return choice_->make(format);
+}
+
+absl::StatusOr<bool> VideoEncoders::setQp(EncoderPtr& encoder, uint32_t qp) {
+  const VideoFormat& now = encoder->format();
+  if (now.thread_count == formatOf(now.size_px, qp).thread_count) {
+    VIEWLOOM_RETURN_IF_ERROR(encoder->setQp(qp));
+    return false;
+  }
+  absl::StatusOr<EncoderPtr> other = take(now.size_px, qp);
+  VIEWLOOM_RETURN_IF_ERROR(other.status());
+  putBack(std::exchange(encoder, *std::move(other)));
+  return true;
 }
 
 void VideoEncoders::putBack(EncoderPtr encoder) {

@@ -21,6 +21,10 @@ class VideoEncoders {
 
   // An encoder of views (viewFormat) that nobody else has. Errors as of VideoEncoderChoice::make.
   absl::StatusOr<std::unique_ptr<VideoEncoder>> take(SizePx picture_px, uint32_t qp);
+  // Quantisation of the pictures to come. Where it takes another number of threads, another encoder
+  // takes the place of this one, whose first picture may refer to none: true. Errors as of take(),
+  // and of VideoEncoder::setQp.
+  absl::StatusOr<bool> setQp(std::unique_ptr<VideoEncoder>& encoder, uint32_t qp);
   // Keeps the newest few.
   void putBack(std::unique_ptr<VideoEncoder> encoder);
 
@@ -29,6 +33,8 @@ class VideoEncoders {
 
  private:
   struct Shelf;
+
+  VideoFormat formatOf(SizePx picture_px, uint32_t qp) const;
 
   const uint32_t thread_count_;
   const VideoEncoderChoicePtr choice_;

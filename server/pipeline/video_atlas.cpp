@@ -35,21 +35,26 @@ bool VideoAtlas::put(uint32_t picture, const BandPixels& rows, BytePool& pool) {
   return true;
 }
 
-absl::StatusOr<VideoEncoder*> VideoAtlas::encoderOf(uint32_t picture, VideoEncoders& encoders) {
-  if (start_.chain) start_.chain->encoders.resize(pictures_.size());
-  std::unique_ptr<VideoEncoder>& encoder =
-      start_.chain ? start_.chain->encoders[picture] : encoder_;
-  if (!encoder) {
+std::unique_ptr<VideoEncoder>& VideoAtlas::slotOf(uint32_t picture) {
+  if (!start_.chain) return encoder_;
+  start_.chain->encoders.resize(pictures_.size());
+  return start_.chain->encoders[picture];
+}
+
+// Encoders that have just been taken may have coded another display before.
+absl::StatusOr<Reference> VideoAtlas::prepare(std::unique_ptr<VideoEncoder>& encoder,
+                                              uint32_t picture, VideoEncoders& encoders) {
+  bool is_new = !encoder;
+  if (is_new) {
     absl::StatusOr<std::unique_ptr<VideoEncoder>> taken = encoders.take(picture_px_, start_.qp);
     VIEWLOOM_RETURN_IF_ERROR(taken.status());
     encoder = *std::move(taken);
+  } else {
+    const absl::StatusOr<bool> is_other = encoders.setQp(encoder, start_.qp);
+    VIEWLOOM_RETURN_IF_ERROR(is_other.status());
+    is_new = *is_other;
   }
-  VIEWLOOM_RETURN_IF_ERROR(encoder->setQp(start_.qp));
-  return encoder.get();
-}
-
-Reference VideoAtlas::referenceOf(uint32_t picture) const {
-  const bool refers = start_.chain ? !start_.is_self_contained : picture != 0;
+  const bool refers = !is_new && (start_.chain ? !start_.is_self_contained : picture != 0);
   return refers ? Reference::kPictureBefore : Reference::kNone;
 }
 
@@ -62,12 +67,16 @@ absl::StatusOr<CodedPicture> VideoAtlas::codeNext(VideoEncoders& encoders, ByteP
     coded.picture = next_;
     planes = std::move(pictures_[next_].planes);
   }
-  const absl::StatusOr<VideoEncoder*> encoder = encoderOf(coded.picture, encoders);
-  VIEWLOOM_RETURN_IF_ERROR(encoder.status());
+  std::unique_ptr<VideoEncoder>& encoder = slotOf(coded.picture);
+  const absl::StatusOr<Reference> reference = prepare(encoder, coded.picture, encoders);
+  VIEWLOOM_RETURN_IF_ERROR(reference.status());
   const int64_t begun_ns = wallTimeNs();
-  VIEWLOOM_RETURN_IF_ERROR(
-      (*encoder)->encode(planes->video(), referenceOf(coded.picture), access_unit_));
-  coded.help_ns = ((*encoder)->format().thread_count - 1) * (wallTimeNs() - begun_ns);
+  const absl::Status status = encoder->encode(planes->video(), *reference, access_unit_);
+  if (!status.ok()) {
+    encoder = nullptr;  // also of a chain: the next atlas begins with another
+    return status;
+  }
+  coded.help_ns = (encoder->format().thread_count - 1) * (wallTimeNs() - begun_ns);
   planes = nullptr;
   // Sizes vary from frame to frame; powers of two let the pool's buffers settle after a few.
   BytePool::Buffer unit = bytes.take(std::bit_ceil(access_unit_.size()));

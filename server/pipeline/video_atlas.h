@@ -57,8 +57,11 @@ class VideoAtlas {
   std::shared_ptr<PicturePlanes> planesOf(uint32_t picture, BytePool& pool);
   // With the lock.
   bool isNextReady() const;
-  absl::StatusOr<VideoEncoder*> encoderOf(uint32_t picture, VideoEncoders& encoders);
-  Reference referenceOf(uint32_t picture) const;
+  // The slot of the picture's encoder.
+  std::unique_ptr<VideoEncoder>& slotOf(uint32_t picture);
+  // Fills the slot if need be, and sets the quantisation. What the picture refers to.
+  absl::StatusOr<Reference> prepare(std::unique_ptr<VideoEncoder>& encoder, uint32_t picture,
+                                    VideoEncoders& encoders);
 
   const SizePx picture_px_;
   VideoStart start_;

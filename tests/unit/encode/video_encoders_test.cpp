@@ -41,6 +41,29 @@ TEST(VideoEncoders, codeFineVideoOnOneThread) {
   EXPECT_EQ(encoders.take({64, 128}, kThreadedQpMin - 1)->get()->format().thread_count, 1u);
 }
 
+TEST(VideoEncoders, changeTheirThreadsWithTheQuantisation) {
+  VideoEncoders encoders(2);
+  auto encoder = encoders.take({64, 128}, 30);
+  ASSERT_TRUE(encoder.ok()) << encoder.status();
+  const VideoEncoder* const first = encoder->get();
+  const auto set = [&](uint32_t qp) {
+    const absl::StatusOr<bool> is_other = encoders.setQp(*encoder, qp);
+    EXPECT_TRUE(is_other.ok()) << is_other.status();
+    EXPECT_EQ((*encoder)->format().qp, qp);
+    return is_other.ok() && *is_other;
+  };
+  EXPECT_FALSE(set(kVideoQpMax));
+  EXPECT_FALSE(set(kThreadedQpMin));
+  EXPECT_EQ(encoder->get(), first);
+  EXPECT_TRUE(set(kVideoQpMin));
+  EXPECT_EQ((*encoder)->format().thread_count, 1u);
+  EXPECT_FALSE(set(kThreadedQpMin - 1));
+  EXPECT_TRUE(set(kThreadedQpMin));
+  EXPECT_EQ(encoder->get(), first) << "it has waited";
+  EXPECT_EQ(encoders.setQp(*encoder, kVideoQpMax + 1).status().code(),
+            absl::StatusCode::kInvalidArgument);
+}
+
 TEST(VideoEncoders, letIdleMemoryGo) {
   VideoEncoders encoders(1);
   EXPECT_EQ(encoders.idleMemory()->idleBytes(), 0u);

@@ -144,6 +144,27 @@ TEST_F(ChainedVideoTest, changesTheQuantisationBetweenAtlases) {
   EXPECT_LT(code(2, false, 44)[0].size(), code(3, false, 22)[0].size());
 }
 
+// Fine video has one thread, coarse video several (VideoEncoders): pictures of another encoder
+// refer to none, and readers decode on.
+TEST(ChainedVideo, goesOnWhereTheQuantisationTakesAnotherEncoder) {
+  const SizePx tall_px{64, 256};
+  VideoEncoders of_two(2);
+  BytePool pool(8);
+  const auto chain = std::make_shared<VideoChain>();
+  const auto decoder = *OpenH264Decoder::make();
+  std::vector<bool> are_idr;
+  for (const uint32_t qp : {30u, 24u, 23u, 20u, 24u, 51u}) {
+    VideoAtlas atlas({.view_count = 1, .picture_count = 1, .cell_px = tall_px}, 24);
+    atlas.begin({.qp = qp, .chain = chain, .is_self_contained = are_idr.empty()});
+    EXPECT_TRUE(atlas.put(0, Picture(tall_px, 1).band(0, 256), pool));
+    const auto coded = atlas.codeNext(of_two, pool);
+    ASSERT_TRUE(coded.ok()) << coded.status();
+    EXPECT_TRUE(decoder->decode(*coded->bytes, tall_px).ok());
+    are_idr.push_back(isIdr(*coded->bytes));
+  }
+  EXPECT_EQ(are_idr, (std::vector<bool>{true, false, true, false, true, false}));
+}
+
 TEST_F(VideoAtlasTest, takesRowsFromSeveralThreads) {
   std::atomic<int> told_count = 0;
   {
