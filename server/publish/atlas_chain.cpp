@@ -7,7 +7,7 @@ namespace viewloom {
 namespace {
 
 // Without an atlas for so long, frames stand.
-constexpr int64_t kStanding_ns = 250'000'000;
+constexpr int64_t kChainStands_ns = 250'000'000;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ bool AtlasChain::isApart(int64_t now_ns) const {
 
 bool AtlasChain::wantsAgain(int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const bool do_stand = begun_ns_ != kNever_ns && now_ns - begun_ns_ >= kStanding_ns;
+  const bool do_stand = begun_ns_ != kNever_ns && now_ns - begun_ns_ >= kChainStands_ns;
   if (!is_wanted_ || !do_stand || !isApart(now_ns)) return false;
   is_due_ = true;
   return true;
