@@ -116,6 +116,7 @@ DisplayUse WatchCall::displayUse() const {
 
 absl::Status WatchCall::takeSeat(const std::string& field) {
   const auto self = std::static_pointer_cast<WatchCall>(shared_from_this());
+  fall_outs_ = {};
   std::unique_ptr<Broadcaster::Subscription> left;
   std::shared_ptr<Seat> seat;
   {
@@ -261,7 +262,6 @@ absl::Status WatchCall::leaveChainIfLost() {
       return absl::OkStatus();
     }
   }
-  fall_outs_ = {};
   VIEWLOOM_RETURN_IF_ERROR(asked_.predictWithinAtlas());
   return takeSeat("open.display");
 }

@@ -111,6 +111,7 @@ absl::Status Viewer::subscribe(const AskedDisplay& asked) {
   VIEWLOOM_RETURN_IF_ERROR(subscription.status());
   if (inbox_) dropped_before_ += inbox_->replacedCount();
   inbox_ = std::move(inbox);
+  fall_outs_ = {};
   subscription_ = *std::move(subscription);
   eyes_.watch(request->display, subscription_->displayId(), std::move(track));
   asked_ = asked;
@@ -242,7 +243,6 @@ void Viewer::followChain() {
   if (!subscription_) return;
   if (inbox_->isStuck()) subscription_->wantSelfContained();
   if (!fall_outs_.areTooMany(inbox_->fallOutCount(), context_.clock.nowNs())) return;
-  fall_outs_ = {};
   AskedDisplay changed = asked_;
   changed.encoding.set_prediction(v1::PREDICTION_WITHIN_ATLAS);
   if (absl::Status status = subscribe(changed); !status.ok()) failure_ = std::move(status);
