@@ -171,6 +171,11 @@ absl::Status validateEncodingSpec(const EncodingSpec& encoding) {
                       "ZSTD or RAW");
 }
 
+uint32_t coarsestAdaptedQp(uint32_t finest_qp) {
+  constexpr uint32_t kSpan = 16;
+  return std::min(finest_qp + kSpan, kVideoQpMax);
+}
+
 bool adaptsQuality(const EncodingSpec& encoding) {
   return encoding.color == BandEncoding::kH264 && encoding.video_qp_max > encoding.video_qp;
 }

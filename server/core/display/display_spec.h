@@ -103,9 +103,8 @@ bool adaptsQuality(const EncodingSpec& encoding);
 // Whether atlases may refer to the one before.
 bool isChained(const EncodingSpec& encoding);
 
-inline constexpr uint32_t kVideoQpMax = 51;
-// Steps by which the server may coarsen a quantisation.
-inline constexpr uint32_t kAdaptedQpSpan = 16;
+// Coarsest quantisation that the server may choose where this is the finest.
+uint32_t coarsestAdaptedQp(uint32_t finest_qp);
 
 // Quantisation of H.264 whose error is at most that of a JPEG of this quality, 1..100.
 uint32_t matchedVideoQp(uint32_t jpeg_quality);

@@ -3,7 +3,6 @@
 
 #include <google/protobuf/descriptor.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -230,7 +229,7 @@ void setQuality(const v1::AtlasEncoding& proto, EncodingSpec& encoding) {
   if (proto.video_qp() == 0) encoding.video_qp = matchedVideoQp(encoding.jpeg_quality);
   encoding.bits_per_second_max = proto.bits_per_second_max();
   const bool adapts = proto.video_qp() == 0 || proto.bits_per_second_max() != 0;
-  if (adapts) encoding.video_qp_max = std::min(encoding.video_qp + kAdaptedQpSpan, kVideoQpMax);
+  if (adapts) encoding.video_qp_max = coarsestAdaptedQp(encoding.video_qp);
 }
 
 }  // namespace
