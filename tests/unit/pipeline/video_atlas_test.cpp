@@ -134,9 +134,7 @@ TEST_F(ChainedVideoTest, makesAStreamOfEachPicture) {
 
 TEST_F(ChainedVideoTest, takesFewBytesOfAPictureThatStands) {
   const size_t alone = code(1, true)[1].size();
-  const size_t standing = code(1, false)[1].size();
-  EXPECT_LT(standing, alone / 4);
-  EXPECT_GT(code(7, false)[1].size(), 3 * standing) << "another one";
+  EXPECT_LT(code(1, false)[1].size(), alone / 4);
 }
 
 TEST_F(ChainedVideoTest, changesTheQuantisationBetweenAtlases) {
