@@ -74,10 +74,15 @@ const FairShares::Account* FairShares::find(const Payer& payer) const {
   return findIn(accounts_, payer);
 }
 
+FairShares::Place FairShares::placeOf(const Payer& payer) const {
+  const Account* const account = find(payer);
+  return {level_.startOf(account), account == nullptr ? 0 : account->finish_ns};
+}
+
 const Payer& FairShares::payerOf(const Claim& claim) const {
   if (claim.payers.empty()) return kServer;
   return *std::ranges::min_element(claim.payers, {},
-                                   [&](const Payer& payer) { return startOf(payer); });
+                                   [&](const Payer& payer) { return placeOf(payer); });
 }
 
 std::optional<size_t> FairShares::nextOf(const std::vector<const Claim*>& claims) const {
@@ -98,10 +103,10 @@ std::optional<size_t> FairShares::choose(const std::vector<const Claim*>& claims
   for (size_t i = 0; i < claims.size(); ++i) {
     if (claims[i] == nullptr) continue;
     const Payer& payer = payerOf(*claims[i]);
-    candidates.push_back({i, claims[i], &payer, startOf(payer)});
+    candidates.push_back({i, claims[i], &payer, placeOf(payer)});
   }
   // If two identities have equal shares, the one goes first that is asked about first.
-  const Payer payer = *std::ranges::min_element(candidates, {}, &Candidate::start_ns)->payer;
+  const Payer payer = *std::ranges::min_element(candidates, {}, &Candidate::place)->payer;
   std::erase_if(candidates, [&](const Candidate& candidate) { return *candidate.payer != payer; });
   const Account* const account = find(payer);
   keepTurnOfEyes(account, candidates);

@@ -4,9 +4,11 @@
 //
 // Start-time fair queueing: whoever pays for a piece of work has a virtual time, which is moved on
 // by how long the piece takes. The one whose virtual time is least goes next. Who was idle begins
-// where the others are, and gets no credit for the past but kCredit_ns.
+// where the others are, and gets no credit for the past but kCredit_ns. So does who is further
+// behind, since a device served others; of all of those the one goes next that had least.
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -80,6 +82,14 @@ class FairShares {
   struct Node {
     int64_t finish_ns = 0;  // of all that it has begun
   };
+  // Place of a payer among others; the least goes first. While a device serves a few, those who
+  // share threads fall behind, and all begin with their credit. Then they go by turns, as if there
+  // were no device.
+  struct Place {
+    int64_t start_ns = 0;
+    int64_t finish_ns = 0;
+    auto operator<=>(const Place&) const = default;
+  };
   // Virtual time of the payers of one level: where the last one began that was served.
   struct Level {
     int64_t now_ns = 0;
@@ -106,11 +116,11 @@ class FairShares {
     size_t index = 0;
     const Claim* claim = nullptr;
     const Payer* payer = nullptr;
-    int64_t start_ns = 0;
+    Place place;
   };
 
   const Account* find(const Payer& payer) const;
-  int64_t startOf(const Payer& payer) const { return level_.startOf(find(payer)); }
+  Place placeOf(const Payer& payer) const;
   const Payer& payerOf(const Claim& claim) const;
   std::optional<size_t> choose(const std::vector<const Claim*>& claims) const;
   static void keepTurnOfEyes(const Account* account, std::vector<Candidate>& candidates);
