@@ -190,6 +190,9 @@ class Engine {
   virtual ~Engine() = default;
 
   virtual TraceMethod method() const = 0;
+  // Whether the device that it fills computes on the cores of this machine, which worker threads
+  // need as well.
+  virtual bool takesCores() const { return false; }
   // Before anything is begun.
   virtual void connect(EngineEvents events) = 0;
 

@@ -88,7 +88,9 @@ EncodePool::EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, Fa
       bytes_(kKeptBandCount),
       planes_(kKeptPictureCount),
       video_encoders_(options.video_thread_count, options.video_encoders),
-      tasks_(shares) {
+      tasks_(shares),
+      has_all_cores_(options.thread_count >= std::thread::hardware_concurrency()),
+      on_cores_free_(options.on_cores_free) {
   links_.memory.addIdle(bytes_.idleMemory());
   links_.memory.addIdle(planes_.idleMemory());
   links_.memory.addIdle(video_encoders_.idleMemory());
@@ -119,11 +121,20 @@ void EncodePool::stop() {
 void EncodePool::run() {
   BandEncoder encoder(bytes_);
   while (auto task = tasks_.pop()) {
+    if (are_cores_awaited_.exchange(false)) on_cores_free_();
     const int64_t begun_ns = spentWithHelpNs();
     serve(*task, encoder);
     note(*task, spentWithHelpNs() - begun_ns);
     finish(*std::move(task));
   }
+}
+
+// With fewer threads than cores, one may be idle. Whoever takes what waits after the second look
+// sees that a device waits.
+bool EncodePool::keepsCores(const Claim& claim) {
+  if (!has_all_cores_ || !tasks_.hasForOthersWithLess(claim)) return false;
+  are_cores_awaited_ = true;
+  return tasks_.hasForOthersWithLess(claim);
 }
 
 void EncodePool::note(const EncodeTask& task, int64_t duration_ns) {

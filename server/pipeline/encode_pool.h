@@ -2,7 +2,9 @@
 // Threads that finish strips of atlases and pack them as each display asked for.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <functional>
 #include <thread>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct EncodePoolOptions {
   uint32_t thread_count = 1;
   uint32_t video_thread_count = 1;  // that code a picture of a video together
   VideoEncoderChoicePtr video_encoders;
+  std::function<void()> on_cores_free = [] {};  // see keepsCores(); called on any thread
 };
 
 // Thread-safety: all methods may be called from any thread.
@@ -29,6 +32,10 @@ class EncodePool {
 
   // Finished by as many threads as come free, then packed by them.
   void push(StripBatchPtr batch) { tasks_.push(std::move(batch)); }
+  // Whether a device that computes on this machine's cores is to leave them to the threads, rather
+  // than begin a part of this claim: they are all busy, and somebody who has had less waits for
+  // one. Then on_cores_free says when to ask again.
+  bool keepsCores(const Claim& claim);
   // Packs what was pushed, then ends the threads. From one thread.
   void stop();
 
@@ -53,6 +60,9 @@ class EncodePool {
   BytePool planes_;  // of pictures that wait to be coded
   VideoEncoders video_encoders_;
   EncodeQueue tasks_;
+  const bool has_all_cores_;
+  const std::function<void()> on_cores_free_;
+  std::atomic<bool> are_cores_awaited_ = false;
   std::vector<std::jthread> threads_;  // last: they use all of the above
 };
 

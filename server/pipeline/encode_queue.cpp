@@ -40,6 +40,13 @@ void EncodeQueue::pushFirst(StripBatchPtr batch) {
   noteFilled();
 }
 
+bool EncodeQueue::hasForOthersWithLess(const Claim& claim) {
+  std::lock_guard lock(mutex_);
+  dropGivenUp();
+  const StripBatchPtr batch = next();
+  return batch && shares_.hasHadLess(batch->run->claim, claim);
+}
+
 // Whoever takes something wakes the next thread for what is left, from where it runs itself. Woken
 // all at once, two threads were put on one core of two in every fifth atlas, and stayed there for
 // as long as it took.

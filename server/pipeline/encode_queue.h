@@ -66,6 +66,9 @@ class EncodeQueue {
   // is closed, from a thread that will pop again.
   void pushFirst(StripBatchPtr batch);
   PackCosts& packCosts() { return pack_costs_; }
+  // Whether something waits for a thread that is for somebody who has had less so far than whoever
+  // pays for the claim.
+  bool hasForOthersWithLess(const Claim& claim);
   // Waits for something to do. Empty once the queue is closed and everything in it is done.
   std::optional<EncodeTask> pop();
   // A piece that was popped is made.

@@ -93,6 +93,7 @@ void PictureLoop::refusePicture(const std::string& picture_key, const absl::Stat
 }
 
 bool PictureLoop::makeStep(const AtlasRunPtr& run) {
+  if (engine_.takesCores() && desk_.encoders.keepsCores(run->claim)) return false;
   if (!run->making && !beginMaking(run)) return false;
   const MakingStep step = run->making->step();
   if (!step.has_room) return false;

@@ -98,6 +98,11 @@ bool FairShares::goesBefore(const Claim& first, const Claim& second) const {
   return nextOf({&second, &first}) == 1U;
 }
 
+bool FairShares::hasHadLess(const Claim& first, const Claim& second) const {
+  std::lock_guard lock(mutex_);
+  return placeOf(payerOf(first)) < placeOf(payerOf(second));
+}
+
 std::optional<size_t> FairShares::choose(const std::vector<const Claim*>& claims) const {
   std::vector<Candidate> candidates;
   for (size_t i = 0; i < claims.size(); ++i) {

@@ -68,6 +68,8 @@ class FairShares {
   std::optional<size_t> nextOf(const std::vector<const Claim*>& claims) const;
   // Whether the first goes before the second. Of equal claims none does.
   bool goesBefore(const Claim& first, const Claim& second) const;
+  // Whether whoever pays for the first has had less so far than whoever does for the second.
+  bool hasHadLess(const Claim& first, const Claim& second) const;
 
   // The claim begins to wait; its display had nothing to do before.
   void enter(const Claim& claim);

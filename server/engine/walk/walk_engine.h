@@ -45,6 +45,7 @@ class WalkEngine final : public Engine {
   WalkEngine(const Device& device, const WalkOptions& options);
 
   TraceMethod method() const override { return TraceMethod::kWalk; }
+  bool takesCores() const override { return works_.device.info().is_software; }
   void connect(EngineEvents events) override;
   bool takes(const Frame&) const override { return true; }
   uint64_t preparedBytes(const FrameFormat& format) const override {

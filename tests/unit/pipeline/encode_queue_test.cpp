@@ -34,6 +34,11 @@ struct NoWork final : StripWork {
   StripPlanes planes(uint32_t) const override { return {}; }
 };
 
+AtlasRunPtr paidBy(const char* address, AtlasRunPtr run) {
+  run->claim.payers = {Payer(address)};
+  return run;
+}
+
 class EncodeQueueTest : public ::testing::Test {
  protected:
   void push(const AtlasRunPtr& run, const StripWorkShape& shape) {
@@ -148,12 +153,8 @@ TEST_F(EncodeQueueTest, anAtlasThatTakesLongLetsOthersGoFirst) {
 }
 
 TEST_F(EncodeQueueTest, eachPayerHasItsShare) {
-  const auto payedBy = [](AtlasRunPtr run, const char* address) {
-    run->claim.payers = {Payer(address)};
-    return run;
-  };
-  push(payedBy(runOf("huge", 100), "10.0.0.1"), 1, 9);
-  push(payedBy(runOf("small", 900), "10.0.0.2"), 1, 9);
+  push(paidBy("10.0.0.1", runOf("huge", 100)), 1, 9);
+  push(paidBy("10.0.0.2", runOf("small", 900)), 1, 9);
   EXPECT_EQ(popName(), "huge piece 0");
   serve(5000);
   for (int piece = 0; piece < 5; ++piece) {
@@ -161,6 +162,24 @@ TEST_F(EncodeQueueTest, eachPayerHasItsShare) {
     serve(1001);
   }
   EXPECT_EQ(popName(), "huge piece 1");
+}
+
+TEST_F(EncodeQueueTest, tellsADeviceThatSomebodyWaitsWhoHasHadLess) {
+  const Claim device{.payers = {Payer("10.0.0.1")}};
+  shares_.begin(device, 5000);
+  EXPECT_FALSE(queue_.hasForOthersWithLess(device)) << "nothing waits";
+  push(paidBy("10.0.0.1", runOf("own", 100)), 1, 9);
+  EXPECT_FALSE(queue_.hasForOthersWithLess(device));
+  const AtlasRunPtr other = paidBy("10.0.0.2", runOf("other", 900));
+  push(other, 1, 9);
+  EXPECT_TRUE(queue_.hasForOthersWithLess(device));
+  EXPECT_EQ(popName(), "other piece 0");
+  serve(6000);
+  EXPECT_FALSE(queue_.hasForOthersWithLess(device)) << "that one has had more by now";
+  shares_.begin(device, 5000);
+  EXPECT_TRUE(queue_.hasForOthersWithLess(device));
+  other->giveUp();
+  EXPECT_FALSE(queue_.hasForOthersWithLess(device));
 }
 
 TEST_F(EncodeQueueTest, othersWaitForTheFirstPieceOfWorkThatBeginsWithOne) {

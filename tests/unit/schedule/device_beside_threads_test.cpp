@@ -27,12 +27,25 @@ class Server {
   // Serves the one of them that goes first. Returns its place.
   size_t serveNext(const std::vector<const Claim*>& on_thread) {
     serve(on_device_);
-    const size_t next = shares_.nextOf(on_thread).value();
-    serve(*on_thread[next]);
-    return next;
+    return serveOnThread(on_thread);
+  }
+  // The same, if the device takes the thread's core. Returns whether the device served.
+  bool serveOnOneCore(const std::vector<const Claim*>& on_thread) {
+    const Claim& first = *on_thread[shares_.nextOf(on_thread).value()];
+    if (shares_.hasHadLess(first, on_device_)) {
+      serveOnThread(on_thread);
+      return false;
+    }
+    serve(on_device_);
+    return true;
   }
 
  private:
+  size_t serveOnThread(const std::vector<const Claim*>& claims) {
+    const size_t next = shares_.nextOf(claims).value();
+    serve(*claims[next]);
+    return next;
+  }
   void serve(const Claim& claim) {
     shares_.begin(claim, kPiece_ns);
     shares_.finish(claim, kPiece_ns, kPiece_ns);
@@ -77,6 +90,12 @@ TEST_F(DeviceBesideThreads, aSmallPictureWaitsForOneRoundOfTheOthersAtMost) {
   }
   EXPECT_EQ(made_count, kTurns / kInterval);
   EXPECT_LE(longest_wait, int(kCount));
+}
+
+TEST_F(DeviceBesideThreads, aDeviceThatTakesTheirCoresHasAShareLikeTheOthers) {
+  int device_count = 0;
+  for (int turn = 0; turn < kTurns; ++turn) device_count += server.serveOnOneCore(waiting) ? 1 : 0;
+  EXPECT_NEAR(device_count, kTurns / int(kCount + 1), 4);
 }
 
 }  // namespace
