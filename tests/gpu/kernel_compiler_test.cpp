@@ -47,11 +47,20 @@ class KernelCompilerTest : public testing::Test {
     begun.get_future().wait();
     return release;
   }
+  // A kernel that everybody shares; compiling it waits for `hold`.
+  MissingKernels sharedKernel(const std::shared_future<void>& hold, std::atomic<int>& begun_count) {
+    MissingKernels kernels;
+    kernels.emplace(&shared_place_, [hold, &begun_count] {
+      ++begun_count;
+      hold.wait();
+    });
+    return kernels;
+  }
   // Asks again each time it is told, as frames and pictures do, for a kernel that never has memory.
   void askAgain(KernelCompiler& compiler) {
     ++asked_count_;
     MissingKernels kernels;
-    kernels.emplace(&places_[0], [] { throw std::bad_alloc(); });
+    kernels.emplace(&shared_place_, [] { throw std::bad_alloc(); });
     compiler.compile(std::move(kernels), [this, &compiler] { askAgain(compiler); });
   }
   int askedCount() const { return asked_count_; }
@@ -60,6 +69,7 @@ class KernelCompilerTest : public testing::Test {
  private:
   std::atomic<int> asked_count_ = 0;
   char places_[16] = {};
+  char shared_place_ = 0;
   size_t next_place_ = 0;
   std::mutex mutex_;
   std::vector<std::string> compiled_;
@@ -102,6 +112,45 @@ TEST_F(KernelCompilerTest, tellsNobodyOnceItIsDrained) {
   compiler.drain();
   std::this_thread::sleep_for(KernelCompiler::kPause + std::chrono::milliseconds(100));
   EXPECT_FALSE(is_told);
+}
+
+TEST_F(KernelCompilerTest, takesOneThreadForAKernelHoweverManyWaitForIt) {
+  KernelCompiler compiler(2, failTest);
+  std::promise<void> release;
+  const std::shared_future<void> held = release.get_future().share();
+  std::atomic<int> begun_count = 0;
+  std::atomic<int> told_count = 0;
+  for (int i = 0; i < 3; ++i) {
+    compiler.compile(sharedKernel(held, begun_count), [&] { ++told_count; });
+    while (begun_count == 0) std::this_thread::yield();
+  }
+  std::promise<void> told;
+  compiler.compile(kernelOf("other"), [&] { told.set_value(); });
+  EXPECT_EQ(told.get_future().wait_for(std::chrono::seconds(10)), std::future_status::ready)
+      << "the second thread waits for what the first one compiles";
+  EXPECT_EQ(told_count, 0);
+  release.set_value();
+  while (told_count < 3) std::this_thread::yield();
+  EXPECT_EQ(begun_count, 1);
+}
+
+TEST_F(KernelCompilerTest, compilesAKernelOnceForAllWhoWaitForItInTheQueue) {
+  KernelCompiler compiler(1, failTest);
+  std::promise<void> release = hold(compiler);
+  std::atomic<int> begun_count = 0;
+  std::atomic<int> told_count = 0;
+  std::promise<void> go_on;
+  go_on.set_value();
+  const std::shared_future<void> free = go_on.get_future().share();
+  for (int i = 0; i < 2; ++i) {
+    MissingKernels kernels = sharedKernel(free, begun_count);
+    kernels.merge(kernelOf(i == 0 ? "first" : "second"));
+    compiler.compile(std::move(kernels), [&] { ++told_count; });
+  }
+  release.set_value();
+  while (told_count < 2) std::this_thread::yield();
+  EXPECT_EQ(begun_count, 1);
+  EXPECT_THAT(compiled(), ElementsAre("first", "second"));
 }
 
 TEST_F(KernelCompilerTest, compilesOthersInThePauseOfOneThatHadNoMemory) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "walk/kernel_compiler.h"
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "base/log.h"
@@ -29,20 +31,26 @@ void KernelCompiler::compile(MissingKernels kernels, std::function<void()> then)
   const auto order = std::make_shared<Order>(
       Order{.left_count = uint32_t(kernels.size()), .then = std::move(then)});
   std::lock_guard lock(mutex_);
-  for (auto& [place, kernel] : kernels) waiting_.push_back({std::move(kernel), order});
+  for (auto& [place, compile] : kernels) {
+    if (Kernel* const same = find(place)) {
+      same->orders.push_back(order);
+    } else {
+      waiting_.push_back({place, std::move(compile), {order}});
+    }
+  }
   added_.notify_all();
 }
 
 void KernelCompiler::compileAhead(MissingKernels kernels) {
   std::lock_guard lock(mutex_);
-  for (auto& [place, kernel] : kernels) ahead_.push_back({std::move(kernel), nullptr});
+  for (auto& [place, compile] : kernels) ahead_.push_back({place, std::move(compile), {}});
   added_.notify_all();
 }
 
 void KernelCompiler::drain() {
   std::unique_lock lock(mutex_);
   forgetAll();
-  done_.wait(lock, [this] { return begun_count_ == 0; });
+  done_.wait(lock, [this] { return busy_count_ == 0; });
   forgetAll();  // what those that had begun have ordered, or are to be told of later
 }
 
@@ -55,18 +63,17 @@ void KernelCompiler::forgetAll() {
 void KernelCompiler::run(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (waitForWork(lock, stop)) {
-    ++begun_count_;
+    ++busy_count_;
     if (const OrderPtr late = takeLate()) {
       lock.unlock();
       tell(*late);
     } else {
-      const Kernel kernel = std::move(next().front());
-      next().pop_front();
+      const Kernels::iterator kernel = takeNext();
       lock.unlock();
       compileOne(kernel);
     }
     lock.lock();
-    --begun_count_;
+    --busy_count_;
     done_.notify_all();
   }
 }
@@ -97,6 +104,20 @@ KernelCompiler::OrderPtr KernelCompiler::takeLate() {
   return order;
 }
 
+KernelCompiler::Kernels::iterator KernelCompiler::takeNext() {
+  begun_.splice(begun_.end(), next(), next().begin());
+  return std::prev(begun_.end());
+}
+
+// One that is being compiled, or that somebody waits for; nullptr = it is neither.
+KernelCompiler::Kernel* KernelCompiler::find(const void* place) {
+  for (Kernels* const kernels : {&begun_, &waiting_}) {
+    const auto found = std::ranges::find(*kernels, place, &Kernel::place);
+    if (found != kernels->end()) return &*found;
+  }
+  return nullptr;
+}
+
 // False: there was no memory. Whoever waits asks again.
 bool KernelCompiler::compileUnlessOutOfMemory(const Kernel& kernel) {
   try {
@@ -110,25 +131,33 @@ bool KernelCompiler::compileUnlessOutOfMemory(const Kernel& kernel) {
   }
 }
 
-void KernelCompiler::compileOne(const Kernel& kernel) {
+void KernelCompiler::compileOne(Kernels::iterator kernel) {
+  std::vector<OrderPtr> complete;
   try {
-    const bool is_compiled = compileUnlessOutOfMemory(kernel);
-    if (kernel.order == nullptr) return;
-    {
-      std::lock_guard lock(mutex_);
-      Order& order = *kernel.order;
-      if (!is_compiled) order.lacks_kernels = true;
-      if (--order.left_count > 0) return;
-      if (order.lacks_kernels) {
-        late_.push_back({kernel.order, Clock::now() + kPause});
-        added_.notify_all();
-        return;
-      }
-    }
-    kernel.order->then();
+    complete = finish(kernel, compileUnlessOutOfMemory(*kernel));
   } catch (const std::exception& error) {
     on_failure_(error);
   }
+  for (const OrderPtr& order : complete) tell(*order);
+}
+
+// Returns the orders that are to be told now.
+std::vector<KernelCompiler::OrderPtr> KernelCompiler::finish(Kernels::iterator kernel,
+                                                             bool is_compiled) {
+  std::lock_guard lock(mutex_);
+  std::vector<OrderPtr> complete;
+  for (const OrderPtr& order : kernel->orders) {
+    if (!is_compiled) order->lacks_kernels = true;
+    if (--order->left_count > 0) continue;
+    if (order->lacks_kernels) {
+      late_.push_back({order, Clock::now() + kPause});
+      added_.notify_all();
+    } else {
+      complete.push_back(order);
+    }
+  }
+  begun_.erase(kernel);
+  return complete;
 }
 
 void KernelCompiler::tell(const Order& order) {

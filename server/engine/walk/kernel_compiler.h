@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiles kernels on threads of its own, for frames and pictures that wait for them.
+// Compiles kernels on threads of its own, for frames and pictures that wait for them. However many
+// wait for a kernel, it takes one thread, so that others are left for other kernels.
 #pragma once
 
 #include <chrono>
@@ -7,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <list>
 #include <memory>
 #include <mutex>
 #include <thread>
@@ -49,9 +51,11 @@ class KernelCompiler {
   };
   using OrderPtr = std::shared_ptr<Order>;
   struct Kernel {
+    const void* place;  // as in MissingKernels
     std::function<void()> compile;
-    OrderPtr order;  // nullptr = nobody waits
+    std::vector<OrderPtr> orders;  // empty = nobody waits
   };
+  using Kernels = std::list<Kernel>;
   // An order that lacks kernels, and whose caller is told later.
   struct Late {
     OrderPtr order;
@@ -59,13 +63,16 @@ class KernelCompiler {
   };
 
   void run(const std::stop_token& stop);
-  // These four are called under the lock.
+  // These six are called under the lock.
   void forgetAll();
   bool waitForWork(std::unique_lock<std::mutex>& lock, const std::stop_token& stop);
   OrderPtr takeLate();
-  std::deque<Kernel>& next() { return waiting_.empty() ? ahead_ : waiting_; }
+  Kernels& next() { return waiting_.empty() ? ahead_ : waiting_; }
+  Kernels::iterator takeNext();
+  Kernel* find(const void* place);
   bool compileUnlessOutOfMemory(const Kernel& kernel);
-  void compileOne(const Kernel& kernel);
+  void compileOne(Kernels::iterator kernel);
+  std::vector<OrderPtr> finish(Kernels::iterator kernel, bool is_compiled);
   void tell(const Order& order);
 
   const std::function<void(const std::exception& error)> on_failure_;
@@ -73,10 +80,11 @@ class KernelCompiler {
   std::mutex mutex_;  // guards what follows, and the counts of orders
   std::condition_variable_any added_;
   std::condition_variable done_;
-  std::deque<Kernel> waiting_;
-  std::deque<Kernel> ahead_;
-  std::deque<Late> late_;  // the one that is due first, first
-  uint32_t begun_count_ = 0;
+  Kernels waiting_;
+  Kernels ahead_;
+  Kernels begun_;
+  std::deque<Late> late_;              // the one that is due first, first
+  uint32_t busy_count_ = 0;            // threads that compile or tell
   std::vector<std::jthread> threads_;  // last: they use all of the above
 };
 
