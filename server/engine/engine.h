@@ -7,9 +7,11 @@
 // Nobody outside server/engine asks how.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -217,9 +219,10 @@ class Engine {
   // nullptr: all memory is lent (EngineEvents::on_room). There is always memory for one small atlas
   // of each picture, and for one large atlas of each payer.
   virtual std::unique_ptr<Making> begin(AtlasOrder order, HandOn hand_on) = 0;
-  // Does one piece of work that lets first pictures come sooner; false: there is none. Called by
-  // the thread of begin() while nobody waits for it.
-  virtual bool workAhead() = 0;
+  // Does one piece of work that lets first pictures come sooner, unless somebody has needed the
+  // engine right before: he will soon again. Returns after how long there may be more; empty =
+  // there is no more. Called by the thread of begin() while nothing is begun.
+  virtual std::optional<std::chrono::nanoseconds> workAhead() = 0;
   // Waits until everything is handed on, and forgets who waits to be ready.
   virtual void drain() = 0;
 };

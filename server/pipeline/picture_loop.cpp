@@ -58,11 +58,10 @@ void PictureLoop::run(const std::stop_token& stop) {
     if (makePart(may_begin)) continue;
     if (!may_begin && begun_.isEmpty()) return;
     const std::optional<int64_t> until_ns = desk_.board.eyesWaitUntilNs(rank_);
-    if (until_ns && may_begin) {
-      wake_up_.waitFor(links_.clock.napUntil(*until_ns));
-    } else if (!may_begin || !begun_.isEmpty() || !engine_.workAhead()) {
-      wake_up_.wait();
-    }
+    std::optional<std::chrono::nanoseconds> pause;
+    if (until_ns && may_begin) pause = links_.clock.napUntil(*until_ns);
+    if (!pause && begun_.isEmpty()) pause = engine_.workAhead();
+    wake_up_.wait(pause);
   }
 }
 

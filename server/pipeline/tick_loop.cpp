@@ -46,11 +46,9 @@ void TickLoop::run(const std::stop_token& stop) {
       for (TickSchedule::DueTick& due : takeDue()) offerTick(due);
     });
     if (!status.ok()) log(LogLevel::kWarning, "ticks are left out: ", status.message());
-    if (const std::optional<int64_t> due_ns = soonestNs()) {
-      wake_up_.waitFor(links_.clock.napUntil(*due_ns));
-    } else {
-      wake_up_.wait();
-    }
+    std::optional<std::chrono::nanoseconds> nap;
+    if (const std::optional<int64_t> due_ns = soonestNs()) nap = links_.clock.napUntil(*due_ns);
+    wake_up_.wait(nap);
   }
 }
 

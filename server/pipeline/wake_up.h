@@ -5,6 +5,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 namespace viewloom {
@@ -18,16 +19,15 @@ class WakeUp {
     rings_.notify_one();
   }
 
-  void wait() {
+  // Returns without a ring, too, once so much time has passed; empty = never.
+  void wait(std::optional<std::chrono::nanoseconds> at_most) {
     std::unique_lock lock(mutex_);
-    rings_.wait(lock, [this] { return rung_; });
-    rung_ = false;
-  }
-
-  // Returns without a ring, too, once so much time has passed.
-  void waitFor(std::chrono::nanoseconds time) {
-    std::unique_lock lock(mutex_);
-    rings_.wait_for(lock, time, [this] { return rung_; });
+    const auto is_rung = [this] { return rung_; };
+    if (at_most) {
+      rings_.wait_for(lock, *at_most, is_rung);
+    } else {
+      rings_.wait(lock, is_rung);
+    }
     rung_ = false;
   }
 

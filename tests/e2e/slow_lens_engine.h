@@ -104,7 +104,7 @@ class SlowLensEngine final : public Engine {
     std::unique_ptr<Making> lens = engine_->begin(std::move(order), std::move(hand_on));
     return lens ? std::make_unique<SlowLens>(std::move(lens), hold_) : nullptr;
   }
-  bool workAhead() override { return engine_->workAhead(); }
+  std::optional<std::chrono::nanoseconds> workAhead() override { return engine_->workAhead(); }
   void drain() override { engine_->drain(); }
 
  private:

@@ -47,7 +47,7 @@ class SweepEngine final : public Engine {
     return atlases_for_eyes_.hasRoom(payer);
   }
   std::unique_ptr<Making> begin(AtlasOrder order, HandOn hand_on) override;
-  bool workAhead() override { return false; }
+  std::optional<std::chrono::nanoseconds> workAhead() override { return std::nullopt; }
   void drain() override {}
 
  private:

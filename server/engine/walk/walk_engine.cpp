@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "base/thread_name.h"
+#include "base/thread_time.h"
 #include "gpu/device_error.h"
 #include "walk/within_device_memory.h"
 
@@ -97,7 +98,9 @@ bool WalkEngine::isReadyFor(const Frame& frame, std::function<void()> then) {
   return false;
 }
 
+// Its picture comes next, once the frame is prepared.
 PlanPtr WalkEngine::plan(const PicturePtr& picture, const PreparedFrame& frame) const {
+  works_.use.note(wallTimeNs());
   return std::make_shared<WalkPlan>(works_.device, picture, static_cast<const WalkedFrame&>(frame),
                                     costs_);
 }
@@ -122,8 +125,13 @@ bool WalkEngine::warmNext(const std::stop_token& stop) {
   return false;
 }
 
-bool WalkEngine::workAhead() {
-  return !compiler_ && warm_up_ && warmNext({});
+// A software device compiles on its queue: whoever came in the middle of that would wait for it.
+std::optional<std::chrono::nanoseconds> WalkEngine::workAhead() {
+  if (compiler_ || !warm_up_) return std::nullopt;
+  const std::chrono::nanoseconds rest(works_.use.restNs(wallTimeNs()));
+  if (rest > rest.zero()) return rest;
+  if (!warmNext({})) return std::nullopt;
+  return rest;
 }
 
 void WalkEngine::drain() {
@@ -144,6 +152,7 @@ std::unique_ptr<Making> WalkEngine::begin(AtlasOrder order, HandOn hand_on) {
                         .strips = strips_,
                         .watch = watch_,
                         .meter = meter_,
+                        .use = works_.use,
                         .gatherers = gatherers_};
   return std::make_unique<WalkMaking>(tools, std::move(order), std::move(trace),
                                       std::move(hand_on));

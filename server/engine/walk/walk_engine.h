@@ -2,6 +2,7 @@
 // Walks rays through structures on a Vulkan device (shaders/walk.md): any picture of any frame.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -57,7 +58,7 @@ class WalkEngine final : public Engine {
   bool isReady(const AtlasOrder& order, std::function<void()> then) override;
   bool hasRoomForEyes(const std::string&) override { return true; }
   std::unique_ptr<Making> begin(AtlasOrder order, HandOn hand_on) override;
-  bool workAhead() override;
+  std::optional<std::chrono::nanoseconds> workAhead() override;
   void drain() override;
 
  private:

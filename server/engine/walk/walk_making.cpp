@@ -153,6 +153,7 @@ void GathererShelf::putBack(std::unique_ptr<BandGatherer> gatherer) {
 WalkMaking::WalkMaking(WalkTools tools, AtlasOrder order, std::shared_ptr<StripTrace> trace,
                        HandOn hand_on)
     : tools_(std::move(tools)),
+      use_(tools_.use),
       order_(std::move(order)),
       picture_(tracedPicture(order_)),
       device_(static_cast<const WalkPlan&>(*order_.plan).device),

@@ -10,6 +10,7 @@
 #include "engine/engine.h"
 #include "lens/band_gatherer.h"
 #include "trace/view_tracer.h"
+#include "walk/device_use.h"
 #include "walk/device_watch.h"
 #include "walk/part_costs.h"
 #include "walk/part_meter.h"
@@ -61,6 +62,7 @@ struct WalkTools {
   StripTraces& strips;
   DeviceWatch& watch;
   PartMeter& meter;
+  DeviceUse& use;
   std::shared_ptr<GathererShelf> gatherers;
 };
 
@@ -99,6 +101,7 @@ class WalkMaking final : public Making {
   void handOn(uint64_t timeline_value);
 
   const WalkTools tools_;
+  const LastingUse use_;
   const AtlasOrder order_;
   const PicturePtr picture_;  // as it is traced
   const Device& device_;

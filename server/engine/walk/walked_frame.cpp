@@ -40,6 +40,7 @@ void WalkedFrame::reserve() {
 
 int64_t WalkedFrame::prepare(const Clock& clock, const PreparationEvents& events) {
   if (!frame_) return 0;
+  const LastingUse use(works_.use);
   return withinDeviceMemory([&] {
     std::lock_guard lock(builds_->mutex);
     makeRoom();

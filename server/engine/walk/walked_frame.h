@@ -13,6 +13,7 @@
 #include "structure/build_costs.h"
 #include "structure/frame_structure.h"
 #include "structure/structure_builder.h"
+#include "walk/device_use.h"
 #include "walk/submission_clock.h"
 
 namespace viewloom {
@@ -27,6 +28,7 @@ struct StructureWorks {
   Timeline timeline;
   const StructureBuilder builder;
   SubmissionClock clock;
+  mutable DeviceUse use;  // by anybody but the warm-up; plans note it, too
   BuildCosts build_costs{kBuiltPxStart_ns};
 
  private:

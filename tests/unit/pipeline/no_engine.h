@@ -2,8 +2,10 @@
 // An engine for tests that make no pictures.
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -12,7 +14,7 @@
 namespace viewloom::test {
 
 // Takes all frames, and is never asked for more.
-class NoEngine final : public Engine {
+class NoEngine : public Engine {
  public:
   TraceMethod method() const override { return TraceMethod::kSweep; }
   void connect(EngineEvents) override {}
@@ -23,7 +25,7 @@ class NoEngine final : public Engine {
   bool isReady(const AtlasOrder&, std::function<void()>) override { return true; }
   bool hasRoomForEyes(const std::string&) override { return true; }
   std::unique_ptr<Making> begin(AtlasOrder, HandOn) override { return nullptr; }
-  bool workAhead() override { return false; }
+  std::optional<std::chrono::nanoseconds> workAhead() override { return std::nullopt; }
   void drain() override {}
 };
 

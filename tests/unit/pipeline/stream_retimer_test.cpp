@@ -59,7 +59,7 @@ class CountingEngine final : public Engine {
   bool isReady(const AtlasOrder&, std::function<void()>) override { return true; }
   bool hasRoomForEyes(const std::string&) override { return false; }
   std::unique_ptr<Making> begin(AtlasOrder, HandOn) override { return nullptr; }
-  bool workAhead() override { return false; }
+  std::optional<std::chrono::nanoseconds> workAhead() override { return std::nullopt; }
   void drain() override {}
 
  private:
