@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kernels of likely displays are compiled while nobody needs the device.
+// Kernels of likely displays are compiled while nobody needs the device, and a few at a time.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 
 #include "base/clock.h"
 #include "support/test_device.h"
 #include "support/test_frames.h"
 #include "walk/walk_engine.h"
+#include "walk/warm_up.h"
 
 namespace viewloom::work_ahead_test {
 namespace {
@@ -35,6 +37,36 @@ TEST_F(WorkAheadTest, restsOnceSomebodyHasNeededTheDevice) {
   EXPECT_LE(pause->count(), DeviceUse::kRest_ns);
   EXPECT_EQ(kernelCount(), before) << "a picture of this frame would have waited for that";
   engine.drain();
+}
+
+TEST_F(WorkAheadTest, compilesFewKernelsAtATimeForPictures) {
+  StructureWorks works(device());
+  ViewTracer tracer(device());
+  WarmUp warm_up(works, tracer);
+  constexpr int kFrames = 2;
+  for (int i = 0; i < kFrames; ++i) ASSERT_TRUE(warm_up.makeNext({}));
+  // Means along both axes, or the walk and what sums its light.
+  constexpr uint64_t kKernelsMax = 2;
+  uint64_t most = 0;
+  for (int piece = 0; piece < 4; ++piece) {
+    const uint64_t before = kernelCount();
+    ASSERT_TRUE(warm_up.makeNext({}));
+    most = std::max(most, kernelCount() - before);
+  }
+  EXPECT_GT(most, 0u);
+  EXPECT_LE(most, kKernelsMax);
+}
+
+// Whoever submits beside it would cut his work into ever smaller pieces, each of which waits again.
+TEST_F(WorkAheadTest, takesItsTimeForItself) {
+  StructureWorks works(device());
+  ViewTracer tracer(device());
+  WarmUp warm_up(works, tracer);
+  const int64_t begun_ns = wallTimeNs();
+  ASSERT_TRUE(warm_up.makeNext({}));
+  const int64_t passed_ns = wallTimeNs() - begun_ns;
+  // Somebody who submitted at the same time is done right after it.
+  EXPECT_LT(works.clock.noteDone(begun_ns), passed_ns / 2);
 }
 
 }  // namespace

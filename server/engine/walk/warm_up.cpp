@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "walk/warm_up.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
 #include "base/check.h"
 #include "base/log.h"
+#include "base/thread_time.h"
 #include "lens/band_gatherer.h"
 #include "lens/host_structure.h"
 #include "picture/trace_job.h"
@@ -117,8 +119,12 @@ bool WarmUp::makeNext(const std::stop_token& stop) {
     return true;
   }
   if (left_.empty()) return false;
-  trace(left_.back(), stop);
-  if (stop.stop_requested()) return false;
+  if (!current_) {
+    begin(left_.back());
+    if (!compile(stop)) return false;
+  }
+  traceNext();
+  if (current_) return true;
   left_.pop_back();
   if (left_.empty()) tellEnd();
   return true;
@@ -136,10 +142,18 @@ void WarmUp::build() {
   structure_ = std::make_unique<FrameStructure>(works_.device, shapesOf(*frame));
   structure_->upload(*frame);
   structure_->recordBuild(recorder_.begin(), works_.builder);
-  works_.timeline.wait(recorder_.submit(works_.timeline));
+  submit();
 }
 
-void WarmUp::trace(const SmallPicture& picture, const std::stop_token& stop) {
+WarmUp::TracedPicture::TracedPicture(const Device& device, const FrameStructure& structure,
+                                     TraceJob traced, const TraceOutputs& wanted)
+    : job(std::move(traced)),
+      planes(wanted),
+      rows{0, std::min(job.layout->size_px.height, kBandRowsMax)},
+      slot(device, slotShape(job, rows.row_count, planes)),
+      parts(ViewTracer::partsOf(structure.parts(), job, rows)) {}
+
+void WarmUp::begin(const SmallPicture& picture) {
   const SeenSource& source = sources_.front();
   absl::StatusOr<AtlasLayout> layout = makeAtlasLayout(
       picture.spec,
@@ -151,14 +165,45 @@ void WarmUp::trace(const SmallPicture& picture, const std::stop_token& stop) {
       gathersOnHost(isInReach(works_.device, structure_->firstPart().shape()), job);
   TraceOutputs planes = picture.planes;
   planes.color = tracer_.colorForm(ColorForm::kYcbcr420);
-  for (const auto& [place, compile] : tracer_.missing(structure_->parts(), job, planes)) {
-    if (stop.stop_requested()) return;
+  current_.emplace(works_.device, *structure_, std::move(job), planes);
+}
+
+// A software device compiles a kernel once more when it comes to its first dispatch, so there it is
+// left to the recording of that: whoever measures knows by Device::kernelCount() when that was.
+bool WarmUp::compile(const std::stop_token& stop) {
+  if (works_.device.info().is_software) return !stop.stop_requested();
+  for (const auto& [place, compile] :
+       tracer_.missing(structure_->parts(), current_->job, current_->planes)) {
+    if (stop.stop_requested()) return false;
     compile();
   }
-  const BandRows rows{0, std::min(job.layout->size_px.height, kBandRowsMax)};
-  TraceSlot slot(works_.device, slotShape(job, rows.row_count, planes));
-  tracer_.recordBand(recorder_.begin(), structure_->firstPart(), job, rows, slot, nullptr);
+  return true;
+}
+
+// The means of colour that the picture takes, or the next part of it.
+void WarmUp::traceNext() {
+  const Commands commands = recorder_.begin();
+  const uint64_t all_texels = kSource_px.area();
+  if (tracer_.recordMeans(commands, structure_->parts(), current_->job, current_->planes,
+                          all_texels) > 0) {
+    submit();
+    return;
+  }
+  // Kernels of further samples are others.
+  const uint64_t rays_of_sample =
+      uint64_t{current_->rows.row_count} * current_->job.layout->size_px.width;
+  const BandPart part = current_->parts.take(rays_of_sample);
+  tracer_.recordPart(commands, structure_->parts(), current_->job, current_->rows, part,
+                     current_->slot);
+  submit();
+  if (current_->parts.isOver()) current_.reset();
+}
+
+// Others that submit meanwhile do not take its time for theirs.
+void WarmUp::submit() {
+  const int64_t submitted_ns = wallTimeNs();
   works_.timeline.wait(recorder_.submit(works_.timeline));
+  works_.clock.noteDone(submitted_ns);
 }
 
 }  // namespace viewloom

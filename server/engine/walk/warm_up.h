@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -22,8 +23,8 @@ class WarmUp {
   // All of it outlives it.
   WarmUp(StructureWorks& works, ViewTracer& tracer);
 
-  // Makes the next one and waits for it; false: all are made, or it is to stop, which it looks at
-  // between kernels.
+  // Makes the next piece and waits for it: the structure of a frame, or what needs a kernel or two
+  // of a picture. False: all are made, or it is to stop, which it looks at between kernels.
   bool makeNext(const std::stop_token& stop);
 
  private:
@@ -31,11 +32,25 @@ class WarmUp {
     DisplaySpec spec;
     TraceOutputs planes;
   };
+  // One that is being traced, part by part.
+  struct TracedPicture {
+    TracedPicture(const Device& device, const FrameStructure& structure, TraceJob traced,
+                  const TraceOutputs& wanted);
+
+    const TraceJob job;
+    const TraceOutputs planes;
+    const BandRows rows;
+    TraceSlot slot;
+    BandParts parts;  // that are left
+  };
 
   static std::vector<SmallPicture> likelyPictures();
   void tellEnd() const;
   void build();
-  void trace(const SmallPicture& picture, const std::stop_token& stop);
+  void begin(const SmallPicture& picture);
+  bool compile(const std::stop_token& stop);
+  void traceNext();
+  void submit();
 
   StructureWorks& works_;
   ViewTracer& tracer_;
@@ -45,6 +60,7 @@ class WarmUp {
   std::vector<FramePtr> frames_;    // that are not built yet, likewise
   std::vector<SeenSource> sources_;
   std::unique_ptr<FrameStructure> structure_;  // of the last frame that was built
+  std::optional<TracedPicture> current_;
 };
 
 }  // namespace viewloom
