@@ -12,7 +12,9 @@ import math
 import re
 import statistics
 import subprocess
+import tempfile
 import time
+from pathlib import Path
 
 import browser as chromium
 from web_client import WebSocket, asked
@@ -40,9 +42,10 @@ JSON.parse = (text) => {
 
 class Live:
     def __init__(self, server, client):
+        self.log = tempfile.NamedTemporaryFile("w+")
         self.server = subprocess.Popen(
             [server, "serve", "--http.address", "127.0.0.1:0", "--grpc.address", "127.0.0.1:0"],
-            stdout=subprocess.PIPE, text=True)
+            stdout=subprocess.PIPE, stderr=self.log, text=True)
         line = self.server.stdout.readline()
         grpc, self.url, port = re.search(r"grpc=\S+:(\d+) http=(\S+:(\d+)/)", line).groups()
         self.port = int(port)
@@ -53,10 +56,17 @@ class Live:
     def __enter__(self):
         return self
 
+    def wait_until_warm(self):
+        """Until the server has compiled the kernels of likely displays, or that took too long."""
+        end = time.monotonic() + WARM_UP_MAX_S
+        while "compiled" not in Path(self.log.name).read_text() and time.monotonic() < end:
+            time.sleep(0.5)
+
     def __exit__(self, *_):
         for process in (self.publisher, self.server):
             process.terminate()
             process.wait()
+        self.log.close()
 
 
 class Page:
@@ -98,7 +108,7 @@ class Page:
         return moved
 
     def warm_up(self):
-        """Turns until the server has compiled what that needs; then the eye is back."""
+        """Turns until the server has compiled what else that needs; then the eye is back."""
         end = time.monotonic() + WARM_UP_MAX_S
         while self.turn(2)["pictures_per_s"] < 3 and time.monotonic() < end:
             pass
@@ -142,6 +152,7 @@ def measure(arguments):
         chromium.FLAGS = tuple(flag for flag in chromium.FLAGS if flag != "--disable-gpu")
     with Live(arguments.server, arguments.client) as live, \
             chromium.Browser(1440, 900) as page:
+        live.wait_until_warm()
         page.open(live.url + "api/streams")
         page.wait_for("fetch('/api/streams').then(r => r.json()).then("
                       "j => j.streams.some(s => s.frame_number > 0))")
