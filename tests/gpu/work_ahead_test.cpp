@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <memory>
+#include <vector>
 
 #include "base/clock.h"
+#include "picture/trace_job.h"
 #include "support/test_device.h"
 #include "support/test_frames.h"
 #include "walk/walk_engine.h"
@@ -15,6 +18,7 @@ namespace viewloom::work_ahead_test {
 namespace {
 
 constexpr SizePx kSource_px{64, 48};
+constexpr int kFrames = 2;  // that it builds first, a piece each
 
 class WorkAheadTest : public GpuTest {
  protected:
@@ -43,7 +47,6 @@ TEST_F(WorkAheadTest, compilesFewKernelsAtATimeForPictures) {
   StructureWorks works(device());
   ViewTracer tracer(device());
   WarmUp warm_up(works, tracer);
-  constexpr int kFrames = 2;
   for (int i = 0; i < kFrames; ++i) ASSERT_TRUE(warm_up.makeNext({}));
   // Means along both axes, or the walk and what sums its light.
   constexpr uint64_t kKernelsMax = 2;
@@ -55,6 +58,35 @@ TEST_F(WorkAheadTest, compilesFewKernelsAtATimeForPictures) {
   }
   EXPECT_GT(most, 0u);
   EXPECT_LE(most, kKernelsMax);
+}
+
+TEST_F(WorkAheadTest, beginsWithWhatPagesNeedThatLookAround) {
+  StructureWorks works(device());
+  ViewTracer tracer(device());
+  WarmUp warm_up(works, tracer);
+  for (int piece = 0; piece < kFrames + 4; ++piece) ASSERT_TRUE(warm_up.makeNext({}));
+  const FramePtr frame = test::syntheticFrame(1, {128, 96});
+  FrameStructure structure(device(), shapesOf(*frame));
+  structure.upload(*frame);
+  CommandRecorder recorder(device());
+  structure.recordBuild(recorder.begin(), works.builder);
+  works.timeline.wait(recorder.submit(works.timeline));
+  const std::vector<SeenSource> sources{seenSource(frame->format.sources.front())};
+  const Camera& camera = sources.front().camera;
+  for (const TraceOutputs& outputs : {TraceOutputs{}, TraceOutputs{.depth = true}}) {
+    const DisplaySpec spec = *completeDisplaySpec(
+        {.kind = StereoSpec{.layout = StereoLayout::kSingle, .eye_size_px = {64, 48}},
+         .world_pose = Pose{.position_m = {0.1, -0.05, 0.02}}});
+    const auto layout = makeAtlasLayout(
+        spec,
+        streamDefaults(camera.intrinsics, sources.front().size_px, structure.stats().front()));
+    const TraceJob job = makeTraceJob(std::make_shared<AtlasLayout>(layout.value()), spec,
+                                      displayPose(spec, camera), sources);
+    TraceOutputs planes = outputs;
+    planes.color = tracer.colorForm(ColorForm::kYcbcr420);
+    EXPECT_TRUE(tracer.missing(structure.parts(), job, planes).empty())
+        << (outputs.depth ? "with depth" : "colour alone");
+  }
 }
 
 // Whoever submits beside it would cut his work into ever smaller pieces, each of which waits again.

@@ -21,6 +21,9 @@ constexpr SizePx kSource_px{64, 48};
 // (trace/mean_color_pass.h).
 constexpr SizePx kEye_px = kSource_px;
 constexpr SizePx kTile_px{kSource_px.width / 4, kSource_px.height / 4};
+// Those of pages that look around are between both, and less while the eye moves: one sample to
+// each side.
+constexpr SizePx kSmallEye_px{kSource_px.width / 2, kSource_px.height / 2};
 // Enough columns for the kernels of quilts (trace/px_runs.cpp).
 constexpr uint32_t kColumns = 8;
 
@@ -75,12 +78,8 @@ WarmUp::WarmUp(StructureWorks& works, ViewTracer& tracer)
 std::vector<WarmUp::SmallPicture> WarmUp::likelyPictures() {
   // Away from the source's rows: eyes that move, displays in the world.
   const Pose beside{.position_m = {0.02, 0.03, 0.05}};
-  const Fov fov{.left_rad = -0.4, .right_rad = 0.4, .up_rad = 0.3, .down_rad = -0.3};
-  const CamerasSpec cameras{.cameras = {{.pose = beside, .projection = fov},
-                                        {.pose = {.position_m = {0.1, 0, 0}}, .projection = fov}},
-                            .tile_size_px = kTile_px,
-                            .columns = 2};
   const StereoSpec eyes{.eye_size_px = kEye_px};
+  const StereoSpec small_eyes{.eye_size_px = kSmallEye_px};
   const QuiltSpec quilt = quiltOf(kTile_px);
   const LensSpec lens{.aperture_radius_m = 0.03};
   LensSpec exact = lens;
@@ -99,7 +98,6 @@ std::vector<WarmUp::SmallPicture> WarmUp::likelyPictures() {
                             .focal_length_m = 3e-3}});
   add({.kind = quiltOf(kSource_px)});
   add({.kind = quiltOf(kSource_px), .world_pose = beside});
-  add({.kind = cameras});
   for (const DisplayKind& kind : {DisplayKind(eyes), DisplayKind(quilt)}) {
     add({.kind = kind, .world_pose = beside, .lens = lens});
     add({.kind = kind, .lens = lens});
@@ -110,6 +108,11 @@ std::vector<WarmUp::SmallPicture> WarmUp::likelyPictures() {
       add({.kind = kind, .world_pose = beside}, planes);
     }
   }
+  // Pages reproject the picture of an eye by its depth, where they can.
+  const TraceOutputs depth{.depth = true};
+  add({.kind = eyes, .world_pose = beside}, depth);
+  add({.kind = small_eyes, .world_pose = beside}, depth);
+  add({.kind = small_eyes, .world_pose = beside});
   return pictures;
 }
 
