@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/check.h"
 #include "fuzz/seeds.h"
-#include "unit/video/sample_picture.h"
+#include "support/video/sample_picture.h"
 #include "video/openh264_encoder.h"
 
 namespace viewloom {

@@ -15,6 +15,7 @@
 #include "base/str_cat.h"
 #include "display/video_stack.h"
 #include "shared/ycbcr.h"
+#include "support/video/sample_picture.h"
 #include "video/h264_parameters.h"
 #include "video/openh264_encoder.h"
 #include "video/view_format.h"
@@ -33,56 +34,31 @@ struct Views {
   }
 };
 
-// One picture; black where no view is.
-class Planes {
- public:
-  explicit Planes(SizePx size_px)
-      : size_px_(size_px),
-        luma_(size_px.area(), 0),
-        cb_(size_px.area() / 4, 128),
-        cr_(size_px.area() / 4, 128) {}
-
-  // Pixels beyond the view repeat its edge.
-  void put(const Views& views, uint32_t view, SizePx cell_px, const StackCell& cell) {
-    for (uint32_t y = 0; y < cell_px.height; y += 2) {
-      for (uint32_t x = 0; x < cell_px.width; x += 2) {
-        putBlock(views, view, x, y, cell.column * cell_px.width, cell.row * cell_px.height);
-      }
+void putBlock(SamplePicture& picture, uint32_t left, uint32_t top, const Views& views,
+              uint32_t view, uint32_t x, uint32_t y) {
+  uint32_t cb_sum = 0;
+  uint32_t cr_sum = 0;
+  for (const uint32_t row : {y, y + 1}) {
+    for (const uint32_t column : {x, x + 1}) {
+      const uint8_t* const rgb = views.pixel(view, column, row);
+      picture.luma(left + column, top + row) = uint8_t(abi::lumaOf(rgb[0], rgb[1], rgb[2]));
+      cb_sum += abi::cbOf(rgb[0], rgb[1], rgb[2]);
+      cr_sum += abi::crOf(rgb[0], rgb[1], rgb[2]);
     }
   }
-  VideoPicture video() const {
-    return {.size_px = size_px_,
-            .y = luma_.data(),
-            .cb = cb_.data(),
-            .cr = cr_.data(),
-            .y_stride_bytes = size_px_.width,
-            .chroma_stride_bytes = size_px_.width / 2};
-  }
+  picture.cb(left + x, top + y) = uint8_t(abi::meanChroma(cb_sum, x / 2));
+  picture.cr(left + x, top + y) = uint8_t(abi::meanChroma(cr_sum, x / 2));
+}
 
- private:
-  void putBlock(const Views& views, uint32_t view, uint32_t x, uint32_t y, uint32_t left,
-                uint32_t top) {
-    uint32_t cb_sum = 0;
-    uint32_t cr_sum = 0;
-    for (const uint32_t row : {y, y + 1}) {
-      for (const uint32_t column : {x, x + 1}) {
-        const uint8_t* const rgb = views.pixel(view, column, row);
-        luma_[size_t{top + row} * size_px_.width + left + column] =
-            uint8_t(abi::lumaOf(rgb[0], rgb[1], rgb[2]));
-        cb_sum += abi::cbOf(rgb[0], rgb[1], rgb[2]);
-        cr_sum += abi::crOf(rgb[0], rgb[1], rgb[2]);
-      }
+// Pixels of the cell beyond the view repeat its edge.
+void putView(SamplePicture& picture, SizePx cell_px, const StackCell& cell, const Views& views,
+             uint32_t view) {
+  for (uint32_t y = 0; y < cell_px.height; y += 2) {
+    for (uint32_t x = 0; x < cell_px.width; x += 2) {
+      putBlock(picture, cell.column * cell_px.width, cell.row * cell_px.height, views, view, x, y);
     }
-    const size_t at = size_t{(top + y) / 2} * (size_px_.width / 2) + (left + x) / 2;
-    cb_[at] = uint8_t(abi::meanChroma(cb_sum, x / 2));
-    cr_[at] = uint8_t(abi::meanChroma(cr_sum, x / 2));
   }
-
-  SizePx size_px_;
-  std::vector<uint8_t> luma_;
-  std::vector<uint8_t> cb_;
-  std::vector<uint8_t> cr_;
-};
+}
 
 std::string sizeText(SizePx size_px) {
   return strCat("{\"width\":", size_px.width, ",\"height\":", size_px.height, "}");
@@ -134,11 +110,11 @@ absl::Status writeAtlas(const Views& views, const VideoStack& stack, bool is_fir
                         Encoders& encoders) {
   std::vector<std::vector<uint8_t>> units(stack.picture_count);
   for (uint32_t picture = 0; picture < stack.picture_count; ++picture) {
-    Planes planes(stack.pictureSize());
+    SamplePicture sample(stack.pictureSize());  // black where no view is
     for (uint32_t view = picture; view < stack.view_count; view += stack.picture_count) {
-      planes.put(views, view, stack.cell_px, stack.cellOf(view));
+      putView(sample, stack.cell_px, stack.cellOf(view), views, view);
     }
-    VIEWLOOM_RETURN_IF_ERROR(encoders.encode(planes.video(), picture, is_first, units[picture]));
+    VIEWLOOM_RETURN_IF_ERROR(encoders.encode(sample.video(), picture, is_first, units[picture]));
   }
   std::cout << headerOf(stack, units);
   for (const auto& unit : units) {

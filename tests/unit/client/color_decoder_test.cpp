@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "support/video/sample_picture.h"
 #include "video/openh264_encoder.h"
 
 namespace viewloom::color_decoder_test {
@@ -44,18 +45,11 @@ class Coder {
     Atlas atlas{.layout = layout_, .header = {}, .end = {}, .bands = {}};
     atlas.header.set_sequence(sequence);
     atlas.header.set_reference_sequence(reference);
-    const std::vector<uint8_t> chroma(kView_px.area() / 4, 128);
     for (uint32_t view = 0; view < kViews; ++view) {
-      const std::vector<uint8_t> luma(kView_px.area(), uint8_t(grey + 20 * view));
+      const auto picture = test::SamplePicture::flat(kView_px, uint8_t(grey + 20 * view), 128, 128);
       std::vector<uint8_t> unit;
       const absl::Status status = encoders_[view]->encode(
-          {.size_px = kView_px,
-           .y = luma.data(),
-           .cb = chroma.data(),
-           .cr = chroma.data(),
-           .y_stride_bytes = kView_px.width,
-           .chroma_stride_bytes = kView_px.width / 2},
-          reference == 0 ? Reference::kNone : Reference::kPictureBefore, unit);
+          picture.video(), reference == 0 ? Reference::kNone : Reference::kPictureBefore, unit);
       EXPECT_TRUE(status.ok()) << status;
       atlas.bands.push_back({.image_index = view,
                              .plane = v1::ATLAS_PLANE_COLOR,

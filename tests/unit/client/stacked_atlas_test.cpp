@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "lib/atlas_assembler.h"
+#include "support/video/sample_picture.h"
 #include "video/openh264_encoder.h"
 
 namespace viewloom::stacked_atlas_test {
@@ -58,16 +59,16 @@ AtlasBand bandOf(uint32_t picture, v1::AtlasPlane plane, v1::BandEncoding encodi
           .bytes = std::move(bytes)};
 }
 
-// Samples of a picture: each cell has the grey of its view.
-std::vector<uint8_t> pictureOf(uint32_t picture) {
-  std::vector<uint8_t> samples(kPicture_px.area());
+// Each cell has the grey of its view.
+test::SamplePicture pictureOf(uint32_t picture) {
+  test::SamplePicture sample(kPicture_px);
   for (uint32_t y = 0; y < kPicture_px.height; ++y) {
     for (uint32_t x = 0; x < kPicture_px.width; ++x) {
       const uint32_t view = picture + kPictures * (x / kCell_px.width);
-      samples[y * kPicture_px.width + x] = view < kViews ? greyOf(view) : uint8_t{0};
+      sample.luma(x, y) = view < kViews ? greyOf(view) : uint8_t{0};
     }
   }
-  return samples;
+  return sample;
 }
 
 Atlas codedAtlas() {
@@ -77,23 +78,17 @@ Atlas codedAtlas() {
               .bands = {}};
   auto encoder = OpenH264Encoder::make({.size_px = kPicture_px, .qp = 20});
   EXPECT_TRUE(encoder.ok()) << encoder.status();
-  const std::vector<uint8_t> chroma(kPicture_px.area() / 4, 128);
   for (uint32_t picture = 0; picture < kPictures; ++picture) {
-    const std::vector<uint8_t> luma = pictureOf(picture);
+    const test::SamplePicture sample = pictureOf(picture);
+    const uint8_t* const luma = sample.video().y;
     std::vector<uint8_t> unit;
-    const absl::Status status =
-        (*encoder)->encode({.size_px = kPicture_px,
-                            .y = luma.data(),
-                            .cb = chroma.data(),
-                            .cr = chroma.data(),
-                            .y_stride_bytes = kPicture_px.width,
-                            .chroma_stride_bytes = kPicture_px.width / 2},
-                           picture == 0 ? Reference::kNone : Reference::kPictureBefore, unit);
+    const absl::Status status = (*encoder)->encode(
+        sample.video(), picture == 0 ? Reference::kNone : Reference::kPictureBefore, unit);
     EXPECT_TRUE(status.ok()) << status;
     atlas.bands.push_back(bandOf(picture, v1::ATLAS_PLANE_COLOR, v1::BAND_ENCODING_H264,
                                  std::string(unit.begin(), unit.end())));
     atlas.bands.push_back(bandOf(picture, v1::ATLAS_PLANE_MASK, v1::BAND_ENCODING_RAW,
-                                 std::string(luma.begin(), luma.end())));
+                                 std::string(luma, luma + kPicture_px.area())));
   }
   return atlas;
 }

@@ -8,7 +8,7 @@
 #include "codecs/video_kinds.h"
 #include "mp4/avc_track.h"
 #include "mp4/movie_coder.h"
-#include "unit/video/sample_picture.h"
+#include "support/video/sample_picture.h"
 #include "video/annex_b.h"
 #include "video/encoder_choice.h"
 #include "video/h264_parameters.h"

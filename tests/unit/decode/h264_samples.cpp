@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/check.h"
+#include "support/video/sample_picture.h"
 #include "unit/decode/jpeg_samples.h"
 #include "video/openh264_encoder.h"
 #include "video/still_pictures.h"
@@ -13,48 +14,32 @@
 namespace viewloom {
 namespace {
 
+// The colours of JPEG files. The picture is smooth: one pixel of four tells its chroma.
+void putPixel(test::SamplePicture& picture, uint32_t x, uint32_t y, const uint8_t rgb[3]) {
+  const double luma = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
+  const auto code = [](double value) {
+    return uint8_t(std::lround(std::clamp(value, 0.0, 255.0)));
+  };
+  picture.luma(x, y) = code(luma);
+  picture.cb(x, y) = code(128 + (rgb[2] - luma) / 1.772);
+  picture.cr(x, y) = code(128 + (rgb[0] - luma) / 1.402);
+}
+
 // Rows of the sample as a picture with even sides; edges are repeated.
-class PictureOfSample {
- public:
-  PictureOfSample(SizePx whole_px, uint32_t first_row, SizePx size_px)
-      : size_px_(size_px), luma_(size_px.area()), cb_(size_px.area() / 4), cr_(size_px.area() / 4) {
-    for (uint32_t y = 0; y < size_px.height; ++y) {
-      for (uint32_t x = 0; x < size_px.width; ++x) {
-        uint8_t rgb[3];
-        samplePixel(whole_px, std::min(x, whole_px.width - 1),
-                    std::min(first_row + y, whole_px.height - 1), rgb);
-        write(x, y, rgb);
-      }
+test::SamplePicture rowsOfSample(SizePx whole_px, uint32_t first_row, SizePx size_px) {
+  test::SamplePicture picture(size_px);
+  for (uint32_t y = 0; y < size_px.height; ++y) {
+    for (uint32_t x = 0; x < size_px.width; ++x) {
+      uint8_t rgb[3];
+      samplePixel(whole_px, std::min(x, whole_px.width - 1),
+                  std::min(first_row + y, whole_px.height - 1), rgb);
+      putPixel(picture, x, y, rgb);
     }
   }
+  return picture;
+}
 
-  VideoPicture video() const {
-    return {.size_px = size_px_,
-            .y = luma_.data(),
-            .cb = cb_.data(),
-            .cr = cr_.data(),
-            .y_stride_bytes = size_px_.width,
-            .chroma_stride_bytes = size_px_.width / 2};
-  }
-
- private:
-  // The picture is smooth: one pixel of four tells its chroma.
-  void write(uint32_t x, uint32_t y, const uint8_t rgb[3]) {
-    const double luma = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
-    const auto code = [](double value) {
-      return uint8_t(std::lround(std::clamp(value, 0.0, 255.0)));
-    };
-    luma_[size_t{y} * size_px_.width + x] = code(luma);
-    const size_t chroma = size_t{y / 2} * (size_px_.width / 2) + x / 2;
-    cb_[chroma] = code(128 + (rgb[2] - luma) / 1.772);
-    cr_[chroma] = code(128 + (rgb[0] - luma) / 1.402);
-  }
-
-  SizePx size_px_;
-  std::vector<uint8_t> luma_, cb_, cr_;
-};
-
-std::vector<uint8_t> coded(VideoEncoder& encoder, const PictureOfSample& picture,
+std::vector<uint8_t> coded(VideoEncoder& encoder, const test::SamplePicture& picture,
                            Reference reference) {
   std::vector<uint8_t> bytes;
   VIEWLOOM_CHECK(encoder.encode(picture.video(), reference, bytes).ok());
@@ -75,8 +60,8 @@ std::vector<uint8_t> sampleH264(SizePx size_px, const H264Sample& sample) {
   std::vector<uint8_t> plane;
   for (uint32_t row = 0; row < even_px.height; row += sample.picture_rows) {
     const SizePx picture_px = {even_px.width, std::min(sample.picture_rows, even_px.height - row)};
-    const std::vector<uint8_t> picture =
-        coded(*encoderOf(picture_px, sample), {size_px, row, picture_px}, Reference::kNone);
+    const std::vector<uint8_t> picture = coded(
+        *encoderOf(picture_px, sample), rowsOfSample(size_px, row, picture_px), Reference::kNone);
     plane.insert(plane.end(), picture.begin(), picture.end());
   }
   return plane;
@@ -85,7 +70,7 @@ std::vector<uint8_t> sampleH264(SizePx size_px, const H264Sample& sample) {
 std::vector<uint8_t> dependentH264(SizePx size_px) {
   const SizePx even_px = stillSize(size_px);
   const auto encoder = encoderOf(even_px, {});
-  const PictureOfSample picture(size_px, 0, even_px);
+  const test::SamplePicture picture = rowsOfSample(size_px, 0, even_px);
   coded(*encoder, picture, Reference::kNone);
   return coded(*encoder, picture, Reference::kPictureBefore);
 }

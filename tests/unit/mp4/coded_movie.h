@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/video/sample_picture.h"
+#include "support/video/sample_picture.h"
 #include "video/openh264_encoder.h"
 
 namespace viewloom::test {

@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "support/video/sample_picture.h"
 #include "unit/video/planned_encoder.h"
-#include "unit/video/sample_picture.h"
 #include "video/annex_b.h"
 #include "video/openh264_decoder.h"
 #include "video/openh264_encoder.h"

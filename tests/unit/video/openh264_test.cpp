@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "unit/video/sample_picture.h"
+#include "support/video/sample_picture.h"
 #include "video/annex_b.h"
 #include "video/h264_parameters.h"
 #include "video/openh264_decoder.h"

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "unit/video/sample_picture.h"
+#include "support/video/sample_picture.h"
 
 namespace viewloom::test::view_colors_test {
 namespace {
@@ -41,34 +41,20 @@ TEST(ViewColors, givesBackColorsWithinOneCode) {
 
 // The views around it are of another colour.
 TEST(ViewColors, takesNothingFromNeighbours) {
-  std::vector<uint8_t> luma(32 * 32, 90);
-  std::vector<uint8_t> chroma(16 * 16, 20);
-  for (uint32_t y = 4; y < 11; ++y) {
-    for (uint32_t x = 4; x < 11; ++x) chroma[y * 16 + x] = 128;
+  SamplePicture picture = SamplePicture::flat({32, 32}, 90, 20, 20);
+  for (uint32_t y = 8; y < 22; y += 2) {
+    for (uint32_t x = 8; x < 22; x += 2) picture.cb(x, y) = picture.cr(x, y) = 128;
   }
-  const VideoPicture picture = {.size_px = {32, 32},
-                                .y = luma.data(),
-                                .cb = chroma.data(),
-                                .cr = chroma.data(),
-                                .y_stride_bytes = 32,
-                                .chroma_stride_bytes = 16};
   std::vector<uint8_t> rgb(13 * 14 * 3);
-  writeViewColors(picture, {.x_px = 8, .y_px = 8, .view_px = {13, 14}}, rgb.data(), 13 * 3);
+  writeViewColors(picture.video(), {.x_px = 8, .y_px = 8, .view_px = {13, 14}}, rgb.data(), 13 * 3);
   for (const uint8_t code : rgb) ASSERT_EQ(code, 90);
 }
 
 TEST(ViewColors, interpolatesChromaBetweenItsSamples) {
-  const std::vector<uint8_t> luma(16, 128);
-  const std::vector<uint8_t> cb(4, 128);
-  const std::vector<uint8_t> cr = {128, 168, 128, 168};
-  const VideoPicture picture = {.size_px = {4, 4},
-                                .y = luma.data(),
-                                .cb = cb.data(),
-                                .cr = cr.data(),
-                                .y_stride_bytes = 4,
-                                .chroma_stride_bytes = 2};
+  SamplePicture picture = SamplePicture::flat({4, 4}, 128, 128, 128);
+  picture.cr(2, 0) = picture.cr(2, 2) = 168;
   std::vector<uint8_t> rgb(4 * 4 * 3);
-  writeViewColors(picture, {.view_px = {4, 4}}, rgb.data(), 12);
+  writeViewColors(picture.video(), {.view_px = {4, 4}}, rgb.data(), 12);
   const double reds[] = {128, 128 + 1.402 * 10, 128 + 1.402 * 30, 128 + 1.402 * 40};
   for (size_t x = 0; x < 4; ++x) EXPECT_NEAR(rgb[3 * x], reds[x], 1);
 }

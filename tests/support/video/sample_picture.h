@@ -11,8 +11,23 @@
 
 namespace viewloom::test {
 
+// A picture with samples of its own.
 class SamplePicture {
  public:
+  // Black. `size_px`: even.
+  explicit SamplePicture(SizePx size_px)
+      : size_px_(size_px),
+        luma_(size_px.area(), 0),
+        cb_(size_px.area() / 4, 128),
+        cr_(size_px.area() / 4, 128) {}
+
+  static SamplePicture flat(SizePx size_px, uint8_t y, uint8_t cb, uint8_t cr) {
+    SamplePicture picture(size_px);
+    picture.luma_.assign(picture.luma_.size(), y);
+    picture.cb_.assign(picture.cb_.size(), cb);
+    picture.cr_.assign(picture.cr_.size(), cr);
+    return picture;
+  }
   // A texture, moved to the right by so many px.
   static SamplePicture texture(SizePx size_px, double moved_px) {
     SamplePicture picture(size_px);
@@ -20,15 +35,12 @@ class SamplePicture {
       return uint8_t(std::lround(128 + 60 * std::sin(x / 7) + 50 * std::cos(y / 11 + x / 23)));
     };
     for (uint32_t y = 0; y < size_px.height; ++y) {
-      for (uint32_t x = 0; x < size_px.width; ++x) {
-        picture.luma_[size_t{y} * size_px.width + x] = wave(x - moved_px, y);
-      }
+      for (uint32_t x = 0; x < size_px.width; ++x) picture.luma(x, y) = wave(x - moved_px, y);
     }
-    for (uint32_t y = 0; y < size_px.height / 2; ++y) {
-      for (uint32_t x = 0; x < size_px.width / 2; ++x) {
-        const size_t at = size_t{y} * (size_px.width / 2) + x;
-        picture.cb_[at] = wave(2 * x - moved_px, 3.0 * y);
-        picture.cr_[at] = wave(2 * y, 2 * x - moved_px);
+    for (uint32_t y = 0; y < size_px.height; y += 2) {
+      for (uint32_t x = 0; x < size_px.width; x += 2) {
+        picture.cb(x, y) = wave(x - moved_px, 1.5 * y);
+        picture.cr(x, y) = wave(y, x - moved_px);
       }
     }
     return picture;
@@ -42,14 +54,13 @@ class SamplePicture {
     }
     return picture;
   }
-  static SamplePicture flat(SizePx size_px, uint8_t y, uint8_t cb, uint8_t cr) {
-    SamplePicture picture(size_px);
-    picture.luma_.assign(picture.luma_.size(), y);
-    picture.cb_.assign(picture.cb_.size(), cb);
-    picture.cr_.assign(picture.cr_.size(), cr);
-    return picture;
-  }
 
+  // Codes of a pixel. 2x2 pixels share those of chroma.
+  uint8_t& luma(uint32_t x, uint32_t y) { return luma_[size_t{y} * size_px_.width + x]; }
+  uint8_t& cb(uint32_t x, uint32_t y) { return cb_[chromaIndex(x, y)]; }
+  uint8_t& cr(uint32_t x, uint32_t y) { return cr_[chromaIndex(x, y)]; }
+
+  // Valid as long as this picture.
   VideoPicture video() const {
     return {.size_px = size_px_,
             .y = luma_.data(),
@@ -60,11 +71,9 @@ class SamplePicture {
   }
 
  private:
-  explicit SamplePicture(SizePx size_px)
-      : size_px_(size_px),
-        luma_(size_px.area()),
-        cb_(size_px.area() / 4),
-        cr_(size_px.area() / 4) {}
+  size_t chromaIndex(uint32_t x, uint32_t y) const {
+    return size_t{y / 2} * (size_px_.width / 2) + x / 2;
+  }
 
   SizePx size_px_;
   std::vector<uint8_t> luma_;
