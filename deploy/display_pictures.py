@@ -7,15 +7,13 @@
         deploy/displays.jpg
 """
 
-import argparse
-import tempfile
-
 from PIL import Image, ImageDraw, ImageFont
 
-from studio import Studio
+from studio import ONE_FRAME, make_picture
 
 GAP_PX = 12
-SCENE = ["--synthetic", "--size", "1440x1080", "--layers", "4"]
+SCENE = ["--synthetic", "--size", "1440x1080", "--layers", "4", *ONE_FRAME]
+PATTERN = ["--pattern", "view-numbers", "--views", "6"]
 QUILT = {"quilt": {"columns": 4, "rows": 2, "size": {"width": 1440, "height": 1080}}}
 STEREO = {"stereo": {"eye_size": {"width": 720, "height": 540}}}
 GRID = {"cameras": {"tile_size": {"width": 360, "height": 270},
@@ -71,28 +69,16 @@ def row_of(tiles):
     return row.resize((WIDTH_PX, round(height_px * WIDTH_PX / width_px)), Image.Resampling.LANCZOS)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("viewloomd")
-    parser.add_argument("viewloom")
-    parser.add_argument("out")
-    arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        studio = Studio(arguments, folder)
-        studio.publish("scene", *SCENE, "--seconds", "0.05", "--hold")
-        studio.publish("pattern", "--pattern", "view-numbers", "--views", "6")
-        try:
-            rows = [row_of([tile(studio, *each) for each in row]) for row in ROWS]
-        finally:
-            studio.close()
-    sheet = Image.new("RGB", (WIDTH_PX, sum(row.height + GAP_PX for row in rows) - GAP_PX), "white")
+def sheet(studio):
+    rows = [row_of([tile(studio, *each) for each in row]) for row in ROWS]
+    picture = Image.new("RGB", (WIDTH_PX, sum(row.height + GAP_PX for row in rows) - GAP_PX),
+                        "white")
     y_px = 0
     for row in rows:
-        sheet.paste(row, (0, y_px))
+        picture.paste(row, (0, y_px))
         y_px += row.height + GAP_PX
-    sheet.save(arguments.out, quality=58, optimize=True)
+    return picture
 
 
 if __name__ == "__main__":
-    main()
+    make_picture(__doc__, {"scene": SCENE, "pattern": PATTERN}, sheet, quality=58)

@@ -7,18 +7,14 @@ portrait scene, as `viewloom watch --views` writes them.
         deploy/three_views.jpg
 """
 
-import argparse
-import tempfile
-
 from PIL import Image
 
-from studio import Studio
+from studio import PORTRAIT, make_picture
 
 VIEWS = (2, 24, 45)
 COLUMNS, ROWS = 8, 6
 VIEW_PX = (420, 560)
 GAP_PX = 6
-SCENE = ["--synthetic", "--scene", "portrait", "--size", "1440x1920", "--layers", "4"]
 
 
 def view_of(quilt, view):
@@ -29,25 +25,14 @@ def view_of(quilt, view):
                        (row + 1) * height_px))
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name in ("viewloomd", "viewloom", "picture"):
-        parser.add_argument(name)
-    arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        studio = Studio(arguments, folder)
-        studio.publish("portrait", *SCENE, "--seconds", "0.05", "--hold")
-        try:
-            quilt = studio.still("portrait", ["--preset", "portrait"])
-        finally:
-            studio.close()
+def views(studio):
+    quilt = studio.still("portrait", ["--preset", "portrait"])
     width_px = len(VIEWS) * VIEW_PX[0] + (len(VIEWS) - 1) * GAP_PX
     picture = Image.new("RGB", (width_px, VIEW_PX[1]), "white")
     for place, view in enumerate(VIEWS):
         picture.paste(view_of(quilt, view), (place * (VIEW_PX[0] + GAP_PX), 0))
-    picture.save(arguments.picture, quality=85, optimize=True)
+    return picture
 
 
 if __name__ == "__main__":
-    main()
+    make_picture(__doc__, {"portrait": PORTRAIT}, views)

@@ -7,15 +7,13 @@ mirrors from beside its source, without and with them, as `viewloom watch` write
         build/release/client/cli/viewloom deploy/reflections.jpg
 """
 
-import argparse
-import tempfile
-
 from PIL import Image
 
-from studio import Studio
+from studio import ONE_FRAME, make_picture
 
 SIZE_PX = (600, 450)
 SHIFT_M = 0.1
+LAKE = ["--synthetic", "--mirrors", "--size", "1440x1080", "--layers", "3", *ONE_FRAME]
 
 
 def display(effects):
@@ -27,26 +25,13 @@ def display(effects):
             "principal_y_px": height_px / 2}}]}, "effects": effects}
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    for name in ("viewloomd", "viewloom", "picture"):
-        parser.add_argument(name)
-    arguments = parser.parse_args()
-    with tempfile.TemporaryDirectory() as folder:
-        studio = Studio(arguments, folder)
-        studio.publish("lake", "--synthetic", "--mirrors", "--size", "1440x1080", "--layers", "3",
-                       "--seconds", "0.05", "--hold")
-        try:
-            stills = [studio.still("lake", display(effects)) for effects in
-                      ({}, {"reflection": {"bounces": 2, "environment_rgb": 0x8FA0B8}})]
-        finally:
-            studio.close()
+def both(studio):
     picture = Image.new("RGB", (2 * SIZE_PX[0], SIZE_PX[1]))
-    for i, still in enumerate(stills):
-        picture.paste(still, (i * SIZE_PX[0], 0))
-    picture.save(arguments.picture, quality=85)
+    for i, effects in enumerate(({}, {"reflection": {"bounces": 2,
+                                                     "environment_rgb": 0x8FA0B8}})):
+        picture.paste(studio.still("lake", display(effects)), (i * SIZE_PX[0], 0))
+    return picture
 
 
 if __name__ == "__main__":
-    main()
+    make_picture(__doc__, {"lake": LAKE}, both)

@@ -1,15 +1,22 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Stills for the README's pictures, made by a server and a client of this tree."""
+"""Pictures of the documents, made by a server and a client of this tree."""
 
+import argparse
+import contextlib
 import json
 import pathlib
 import re
 import signal
 import subprocess
+import tempfile
 
 from PIL import Image
 
 PATIENCE_S = 300
+# Options of a publisher: one frame, which stays.
+ONE_FRAME = ["--seconds", "0.05", "--hold"]
+PORTRAIT = ["--synthetic", "--scene", "portrait", "--size", "1440x1920", "--layers", "4",
+            *ONE_FRAME]
 
 
 class Studio:
@@ -50,3 +57,21 @@ class Studio:
         for process in [*self.publishers, self.server]:
             process.send_signal(signal.SIGINT)
             process.wait(PATIENCE_S)
+
+
+def make_picture(description, publish, take, quality=85):
+    """A script whose arguments are the programs viewloomd and viewloom, and the file of a picture.
+
+    `publish`: the options of each stream, by name. `take`: makes the picture in a `Studio`.
+    """
+    parser = argparse.ArgumentParser(description=description,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    for name in ("viewloomd", "viewloom", "picture"):
+        parser.add_argument(name)
+    arguments = parser.parse_args()
+    with (tempfile.TemporaryDirectory() as folder,
+          contextlib.closing(Studio(arguments, folder)) as studio):
+        for stream, what in publish.items():
+            studio.publish(stream, *what)
+        picture = take(studio)
+    picture.save(arguments.picture, quality=quality, optimize=True)
