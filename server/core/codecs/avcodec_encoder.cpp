@@ -239,11 +239,7 @@ absl::Status AvcodecEncoder::setQp(uint32_t qp) {
 absl::Status AvcodecEncoder::encode(const VideoPicture& picture, Reference reference,
                                     std::vector<uint8_t>& access_unit) {
   access_unit.clear();
-  if (picture.size_px != format_.size_px) {
-    return absl::InvalidArgumentError(strCat("a picture of ", picture.size_px.width, "x",
-                                             picture.size_px.height, " px for an encoder of ",
-                                             format_.size_px.width, "x", format_.size_px.height));
-  }
+  VIEWLOOM_RETURN_IF_ERROR(checkPictureSize(picture, format_));
   if (!context_) VIEWLOOM_RETURN_IF_ERROR(open());
   const bool is_idr = std::exchange(needs_idr_, true) || reference == Reference::kNone;
   beginCall();

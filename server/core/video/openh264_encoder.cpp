@@ -167,11 +167,7 @@ absl::Status OpenH264Encoder::setQp(uint32_t qp) {
 absl::Status OpenH264Encoder::encode(const VideoPicture& picture, Reference reference,
                                      std::vector<uint8_t>& access_unit) {
   access_unit.clear();
-  if (picture.size_px != format_.size_px) {
-    return absl::InvalidArgumentError(strCat("a picture of ", picture.size_px.width, "x",
-                                             picture.size_px.height, " px for an encoder of ",
-                                             format_.size_px.width, "x", format_.size_px.height));
-  }
+  VIEWLOOM_RETURN_IF_ERROR(checkPictureSize(picture, format_));
   if (reference == Reference::kNone) {
     VIEWLOOM_RETURN_IF_ERROR(statusOf(encoder_->ForceIntraFrame(true), "ForceIntraFrame"));
   }

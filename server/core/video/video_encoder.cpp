@@ -32,4 +32,11 @@ absl::Status checkVideoFormat(const VideoFormat& format, const PictureLimit& lim
   return absl::OkStatus();
 }
 
+absl::Status checkPictureSize(const VideoPicture& picture, const VideoFormat& format) {
+  if (picture.size_px == format.size_px) return absl::OkStatus();
+  return absl::InvalidArgumentError(strCat("a picture of ", picture.size_px.width, "x",
+                                           picture.size_px.height, " px for an encoder of ",
+                                           format.size_px.width, "x", format.size_px.height));
+}
+
 }  // namespace viewloom

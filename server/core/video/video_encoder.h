@@ -35,6 +35,8 @@ inline constexpr uint32_t kVideoSideMin_px = 16;
 
 // INVALID_ARGUMENT for a format that an encoder with this limit does not take.
 absl::Status checkVideoFormat(const VideoFormat& format, const PictureLimit& limit);
+// INVALID_ARGUMENT for a picture of another size than the format's.
+absl::Status checkPictureSize(const VideoPicture& picture, const VideoFormat& format);
 
 // Picture that a coded picture refers to.
 enum class Reference : uint8_t { kNone, kPictureBefore };

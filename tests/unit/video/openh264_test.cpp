@@ -189,6 +189,16 @@ TEST(OpenH264, refusesFormatsThatItCannotCode) {
   }
 }
 
+TEST(OpenH264, refusesToCodePicturesOfAnotherSize) {
+  const auto encoder = encoderOf({.size_px = {64, 64}});
+  AccessUnit unit;
+  const absl::Status refused =
+      encoder->encode(SamplePicture::flat({64, 32}, 0, 0, 0).video(), Reference::kNone, unit);
+  EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(refused.message(), "a picture of 64x32 px for an encoder of 64x64");
+  EXPECT_TRUE(unit.empty());
+}
+
 TEST(OpenH264, refusesAPictureWhoseReferenceIsMissing) {
   const SizePx size_px{64, 64};
   const auto encoder = encoderOf({.size_px = size_px});
