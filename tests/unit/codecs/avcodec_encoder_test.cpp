@@ -8,16 +8,13 @@
 #include "codecs/video_kinds.h"
 #include "mp4/avc_track.h"
 #include "mp4/movie_coder.h"
-#include "support/video/sample_picture.h"
-#include "video/annex_b.h"
+#include "support/video/coded_texture.h"
 #include "video/encoder_choice.h"
 #include "video/h264_parameters.h"
 #include "video/openh264_decoder.h"
 
 namespace viewloom::test::avcodec_encoder_test {
 namespace {
-
-using AccessUnit = std::vector<uint8_t>;
 
 VideoEncoderKind kindOf(std::string_view name) {
   for (const VideoEncoderKind& kind : videoEncoderKinds()) {
@@ -33,25 +30,6 @@ std::unique_ptr<VideoEncoder> encoderOf(const VideoFormat& format) {
   return *std::move(encoder);
 }
 
-// Stacks of pictures whose texture moves by 2 px from one to the next.
-std::vector<AccessUnit> coded(VideoEncoder& encoder, int count, int pictures_per_atlas) {
-  std::vector<AccessUnit> units;
-  for (int i = 0; i < count; ++i) {
-    const SamplePicture picture = SamplePicture::texture(encoder.format().size_px, 2 * i);
-    const Reference reference =
-        i % pictures_per_atlas == 0 ? Reference::kNone : Reference::kPictureBefore;
-    const absl::Status status = encoder.encode(picture.video(), reference, units.emplace_back());
-    EXPECT_TRUE(status.ok()) << status;
-  }
-  return units;
-}
-
-std::vector<NalType> typesOf(const AccessUnit& unit) {
-  std::vector<NalType> types;
-  for (const NalUnit& nal : nalUnits(unit)) types.push_back(nal.type());
-  return types;
-}
-
 TEST(AvcodecEncoder, passesTheProbe) {
   const EncoderProbe probe = probeVideoEncoder(kindOf("libx264"));
   EXPECT_TRUE(probe.status.ok()) << probe.status;
@@ -62,7 +40,7 @@ TEST(AvcodecEncoder, passesTheProbe) {
 TEST(AvcodecEncoder, makesTheStreamThatOpenH264Makes) {
   const SizePx size_px{322, 202};
   const auto encoder = encoderOf({.size_px = size_px, .qp = 22});
-  const std::vector<AccessUnit> units = coded(*encoder, 8, 4);
+  const std::vector<AccessUnit> units = codedTexture(*encoder, 8, 4);
   auto decoder = OpenH264Decoder::make();
   for (int i = 0; i < 8; ++i) {
     const AccessUnit& unit = units[size_t(i)];
@@ -107,7 +85,7 @@ TEST(AvcodecEncoder, takesTheQuantisation) {
   const auto bytesAt = [](uint32_t qp) {
     const auto encoder = encoderOf({.size_px = {320, 240}, .qp = qp});
     size_t bytes = 0;
-    for (const AccessUnit& unit : coded(*encoder, 4, 4)) bytes += unit.size();
+    for (const AccessUnit& unit : codedTexture(*encoder, 4, 4)) bytes += unit.size();
     return bytes;
   };
   EXPECT_GT(bytesAt(kVideoQpMin), bytesAt(30));
@@ -140,13 +118,13 @@ TEST(AvcodecEncoder, changesTheQuantisationBetweenPictures) {
 
 TEST(AvcodecEncoder, codesSlicesOnSeveralThreads) {
   const auto encoder = encoderOf({.size_px = {640, 480}, .thread_count = 3});
-  EXPECT_EQ(typesOf(coded(*encoder, 2, 2)[1]), std::vector<NalType>(3, NalType::kSlice));
+  EXPECT_EQ(typesOf(codedTexture(*encoder, 2, 2)[1]), std::vector<NalType>(3, NalType::kSlice));
 }
 
 TEST(AvcodecEncoder, takesWholePortraitQuilts) {
   const SizePx size_px{3360, 3360};
   const auto encoder = encoderOf({.size_px = size_px, .qp = 30, .thread_count = 2});
-  const auto parameters = h264ParametersOf(coded(*encoder, 1, 1).front());
+  const auto parameters = h264ParametersOf(codedTexture(*encoder, 1, 1).front());
   ASSERT_TRUE(parameters.ok()) << parameters.status();
   EXPECT_EQ(parameters->size_px, size_px);
   EXPECT_EQ(parameters->level, 60);

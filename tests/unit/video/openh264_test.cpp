@@ -2,8 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "support/video/sample_picture.h"
-#include "video/annex_b.h"
+#include "support/video/coded_texture.h"
 #include "video/h264_parameters.h"
 #include "video/openh264_decoder.h"
 #include "video/openh264_encoder.h"
@@ -11,8 +10,6 @@
 
 namespace viewloom::test::openh264_test {
 namespace {
-
-using AccessUnit = std::vector<uint8_t>;
 
 constexpr EntropyCoding kEntropies[] = {EntropyCoding::kArithmetic, EntropyCoding::kVariableLength};
 
@@ -39,20 +36,8 @@ Reference referenceOf(int picture) {
   return picture == 0 ? Reference::kNone : Reference::kPictureBefore;
 }
 
-// A stack of pictures whose texture moves by 2 px from one to the next.
 std::vector<AccessUnit> codedStack(VideoEncoder& encoder, int count) {
-  std::vector<AccessUnit> units;
-  for (int i = 0; i < count; ++i) {
-    units.push_back(
-        coded(encoder, SamplePicture::texture(encoder.format().size_px, 2 * i), referenceOf(i)));
-  }
-  return units;
-}
-
-std::vector<NalType> typesOf(const AccessUnit& unit) {
-  std::vector<NalType> types;
-  for (const NalUnit& nal : nalUnits(unit)) types.push_back(nal.type());
-  return types;
+  return codedTexture(encoder, count, count);
 }
 
 TEST(OpenH264, decodesEveryPictureOfAStackRightAway) {
