@@ -8,11 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "e2e/atlas_viewer.h"
+#include "e2e/picture_psnr.h"
 #include "e2e/service_fixture.h"
 #include "e2e/wire_displays.h"
 #include "lib/color_decoder.h"
-#include "scoring/psnr.h"
 
 namespace viewloom::test::service_chained_video_test {
 namespace {
@@ -53,32 +52,11 @@ class Follower {
   Watcher watcher_;       // last: it calls
 };
 
-v1::OpenDisplay quilt() {
-  v1::OpenDisplay open = openScene();
-  v1::QuiltDisplay& quilt = *open.mutable_display()->mutable_quilt();
-  quilt.set_columns(5);
-  quilt.set_rows(4);
-  quilt.mutable_size()->set_width(327);
-  quilt.mutable_size()->set_height(246);
-  return open;
-}
-
 v1::OpenDisplay chainedQuilt() {
-  v1::OpenDisplay open = quilt();
+  v1::OpenDisplay open = asVideo(smallQuilt(), 20);
   open.set_count(0);
-  open.mutable_encoding()->set_color(v1::BAND_ENCODING_H264);
-  open.mutable_encoding()->set_video_qp(20);
   open.mutable_encoding()->set_prediction(v1::PREDICTION_ACROSS_ATLASES);
   return open;
-}
-
-double psnrDb(const AtlasPicture& a, const AtlasPicture& b) {
-  EXPECT_EQ(a.samples.size(), b.samples.size());
-  Psnr psnr;
-  for (size_t i = 0; i < std::min(a.samples.size(), b.samples.size()); ++i) {
-    psnr.add((double(a.samples[i]) - double(b.samples[i])) / 255);
-  }
-  return psnr.db();
 }
 
 class ServiceChainedVideoTest : public ServiceFixture {
@@ -116,10 +94,9 @@ TEST_F(ServiceChainedVideoTest, refersToTheAtlasBeforeAndShowsEachFrame) {
     EXPECT_TRUE(one.color.ok()) << one.color.status();
     before = one.atlas.header.sequence();
   }
-  v1::OpenDisplay exact = quilt();
+  v1::OpenDisplay exact = smallQuilt();
   exact.mutable_encoding()->set_color(v1::BAND_ENCODING_ZSTD);
-  const Atlas newest =
-      AtlasViewer(service_->grpcAddress(), exact).waitFor([](const Atlas&) { return true; });
+  const Atlas newest = atlasOf(exact);
   ASSERT_EQ(newest.header.frame_number(), all.back().atlas.header.frame_number());
   const auto color = decodePlane(newest, v1::ATLAS_PLANE_COLOR);
   ASSERT_TRUE(color.ok() && all.back().color.ok());

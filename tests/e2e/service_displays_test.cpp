@@ -4,34 +4,20 @@
 
 #include <cmath>
 
-#include "e2e/atlas_viewer.h"
+#include "e2e/picture_psnr.h"
 #include "e2e/service_fixture.h"
 #include "e2e/wire_displays.h"
 #include "lib/catalog.h"
 #include "lib/channel.h"
-#include "scoring/psnr.h"
 
 namespace viewloom::test::service_displays_test {
 namespace {
-
-double psnrDb(const AtlasPicture& a, const AtlasPicture& b) {
-  Psnr psnr;
-  for (size_t i = 0; i < a.samples.size(); ++i) {
-    psnr.add((double(a.samples[i]) - double(b.samples[i])) / 255);
-  }
-  return psnr.db();
-}
 
 class ServiceDisplaysTest : public ServiceFixture {
  protected:
   void SetUp() override {
     ServiceFixture::SetUp();
     if (!IsSkipped()) publishOnce(2);
-  }
-
-  // Its one atlas.
-  Atlas atlasOf(const v1::OpenDisplay& open) {
-    return AtlasViewer(service_->grpcAddress(), open).waitFor([](const Atlas&) { return true; });
   }
 
   static AtlasPicture colorOf(const Atlas& atlas) {

@@ -126,9 +126,6 @@ class ServiceEffectsTest : public ServiceFixture {
     return open;
   }
 
-  Atlas atlasOf(const v1::OpenDisplay& open) {
-    return AtlasViewer(service_->grpcAddress(), open).waitFor([](const Atlas&) { return true; });
-  }
   void expectRefused(const v1::OpenDisplay& open, const std::string& field) {
     AtlasViewer viewer(service_->grpcAddress(), open);
     ASSERT_TRUE(viewer.watcher().waitEnded(std::chrono::nanoseconds(kGiveUpAfter).count()));

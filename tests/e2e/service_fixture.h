@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/clock.h"
+#include "e2e/atlas_viewer.h"
 #include "e2e/wire_frames.h"
 #include "engine_room.h"
 #include "lib/channel.h"
@@ -54,6 +55,11 @@ class ServiceFixture : public DeviceNeededTest {
     publisher.offer(std::move(frame));
     const absl::Status end = publisher.finish(std::chrono::nanoseconds(kGiveUpAfter).count());
     ASSERT_TRUE(end.ok()) << end;
+  }
+
+  // The first atlas of a display.
+  Atlas atlasOf(const v1::OpenDisplay& open) {
+    return AtlasViewer(service_->grpcAddress(), open).waitFor([](const Atlas&) { return true; });
   }
 
   SteadyClock clock_;

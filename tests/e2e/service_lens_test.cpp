@@ -6,7 +6,6 @@
 #include <numbers>
 #include <vector>
 
-#include "e2e/atlas_viewer.h"
 #include "e2e/service_fixture.h"
 #include "support/srgb_transfer.h"
 #include "synthetic/synthetic_wire_frame.h"
@@ -119,9 +118,7 @@ class ServiceLensTest : public ServiceFixture {
   }
 
   AtlasPicture pictureOf(const v1::OpenDisplay& open) {
-    const Atlas atlas =
-        AtlasViewer(service_->grpcAddress(), open).waitFor([](const Atlas&) { return true; });
-    auto picture = decodePlane(atlas, v1::ATLAS_PLANE_COLOR);
+    auto picture = decodePlane(atlasOf(open), v1::ATLAS_PLANE_COLOR);
     EXPECT_TRUE(picture.ok()) << picture.status();
     return *std::move(picture);
   }

@@ -38,31 +38,11 @@ double lumaPsnrDb(const Atlas& a, const Atlas& b) {
   return psnr.db();
 }
 
-v1::OpenDisplay asVideo(v1::OpenDisplay open, uint32_t qp) {
-  open.mutable_encoding()->set_color(v1::BAND_ENCODING_H264);
-  open.mutable_encoding()->set_video_qp(qp);
-  return open;
-}
-
-v1::OpenDisplay smallQuilt() {
-  v1::OpenDisplay open = openScene();
-  v1::QuiltDisplay& quilt = *open.mutable_display()->mutable_quilt();
-  quilt.set_columns(5);
-  quilt.set_rows(4);
-  quilt.mutable_size()->set_width(327);
-  quilt.mutable_size()->set_height(246);
-  return open;
-}
-
 class ServiceVideoTest : public ServiceFixture {
  protected:
   void SetUp() override {
     ServiceFixture::SetUp();
     if (!IsSkipped()) publishOnce(2);
-  }
-
-  Atlas atlasOf(const v1::OpenDisplay& open) {
-    return AtlasViewer(service_->grpcAddress(), open).waitFor([](const Atlas&) { return true; });
   }
 };
 

@@ -15,6 +15,24 @@ inline v1::OpenDisplay openScene() {
   return open;
 }
 
+// Views as H.264. `qp`: 0 = as the server chooses.
+inline v1::OpenDisplay asVideo(v1::OpenDisplay open, uint32_t qp) {
+  open.mutable_encoding()->set_color(v1::BAND_ENCODING_H264);
+  open.mutable_encoding()->set_video_qp(qp);
+  return open;
+}
+
+// 20 views, and pixels beside them.
+inline v1::OpenDisplay smallQuilt() {
+  v1::OpenDisplay open = openScene();
+  v1::QuiltDisplay& quilt = *open.mutable_display()->mutable_quilt();
+  quilt.set_columns(5);
+  quilt.set_rows(4);
+  quilt.mutable_size()->set_width(327);
+  quilt.mutable_size()->set_height(246);
+  return open;
+}
+
 inline v1::CamerasDisplay& cameraGrid(v1::OpenDisplay& open) {
   v1::CamerasDisplay& cameras = *open.mutable_display()->mutable_cameras();
   cameras.mutable_tile_size()->set_width(61);
