@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // render, bench and doctor as processes, on pictures made here.
-#include <arpa/inet.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <array>
@@ -16,6 +14,7 @@
 
 #include "e2e/render_folder.h"
 #include "files/png_image.h"
+#include "support/loopback.h"
 
 namespace viewloom::test::commands_test {
 namespace {
@@ -164,15 +163,8 @@ TEST_F(RenderTest, refusesATruthOfAnotherSizeAndABorderThatLeavesNothing) {
 }
 
 TEST(Doctor, saysWhichPortIsTakenAndWhatToDo) {
-  const int listener = socket(AF_INET, SOCK_STREAM, 0);
-  sockaddr_in address = {};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  socklen_t size = sizeof address;
-  ASSERT_EQ(bind(listener, reinterpret_cast<sockaddr*>(&address), size), 0);
-  ASSERT_EQ(listen(listener, 1), 0);
-  ASSERT_EQ(getsockname(listener, reinterpret_cast<sockaddr*>(&address), &size), 0);
-  const std::string taken = "127.0.0.1:" + std::to_string(ntohs(address.sin_port));
+  const int listener = listenAnywhere();
+  const std::string taken = addressOf(listener);
 
   const FinishedRun run =
       runViewloomd("doctor --grpc.address " + taken + " --http.address 127.0.0.1:0");

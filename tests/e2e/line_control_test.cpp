@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The quality that a real socket gets over a line of 100, then 20, then 100 Mbit/s. Atlases are
 // bytes without a picture, so that no encoder is measured.
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -21,6 +19,7 @@
 #include "base/send_queue.h"
 #include "e2e/slow_line.h"
 #include "publish/display_coding.h"
+#include "support/loopback.h"
 #include "support/socket_bytes.h"
 
 namespace viewloom::test::line_control_test {
@@ -56,18 +55,9 @@ struct Arrival {
 // A socket that listens on loopback, and the two ends of a connection to it through the line.
 class Connection {
  public:
-  Connection() : listener_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in any = loopback(0);
-    bind(listener_, reinterpret_cast<const sockaddr*>(&any), sizeof(any));
-    listen(listener_, 1);
-    socklen_t length = sizeof(any);
-    getsockname(listener_, reinterpret_cast<sockaddr*>(&any), &length);
-    line_.emplace("127.0.0.1:" + std::to_string(ntohs(any.sin_port)), 100);
-    const std::string address = line_->address();
-    const sockaddr_in to = loopback(uint16_t(std::stoi(address.substr(address.rfind(':') + 1))));
-    client_ = socket(AF_INET, SOCK_STREAM, 0);
-    const int connected = connect(client_, reinterpret_cast<const sockaddr*>(&to), sizeof(to));
-    EXPECT_EQ(connected, 0);
+  Connection() {
+    line_.emplace(addressOf(listener_), 100);
+    EXPECT_TRUE(connectTo(client_, portIn(line_->address())));
     server_ = accept(listener_, nullptr, nullptr);
     limitSendQueue(server_);
   }
@@ -83,17 +73,9 @@ class Connection {
   int server() const { return server_; }
 
  private:
-  static sockaddr_in loopback(uint16_t port) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    return address;
-  }
-
-  const int listener_;
+  const int listener_ = listenAnywhere();
   std::optional<SlowLine> line_;
-  int client_ = -1;
+  const int client_ = socket(AF_INET, SOCK_STREAM, 0);
   int server_ = -1;
 };
 

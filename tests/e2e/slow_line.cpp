@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "e2e/slow_line.h"
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
 
+#include "support/loopback.h"
 #include "support/socket_bytes.h"
 
 namespace viewloom::test {
@@ -21,35 +19,6 @@ constexpr int kTick_ms = 10;
 constexpr int kBufferBytes = 32 << 10;
 // Bytes that may go at once after a pause, in milliseconds of the line.
 constexpr double kBurst_ms = 20;
-
-sockaddr_in loopback(uint16_t port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
-}
-
-int listenAnywhere() {
-  const int listener = socket(AF_INET, SOCK_STREAM, 0);
-  const sockaddr_in address = loopback(0);
-  if (bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
-      listen(listener, 8) != 0) {
-    throw std::runtime_error("the slow line cannot listen");
-  }
-  return listener;
-}
-
-uint16_t portOf(int listener) {
-  sockaddr_in address{};
-  socklen_t length = sizeof(address);
-  getsockname(listener, reinterpret_cast<sockaddr*>(&address), &length);
-  return ntohs(address.sin_port);
-}
-
-uint16_t portIn(const std::string& address) {
-  return uint16_t(std::stoi(address.substr(address.rfind(':') + 1)));
-}
 
 // Bytes that may go now; grows with time at the speed of the line.
 class Allowance {
@@ -86,7 +55,7 @@ SlowLine::~SlowLine() {
 }
 
 std::string SlowLine::address() const {
-  return "127.0.0.1:" + std::to_string(portOf(listener_));
+  return addressOf(listener_);
 }
 
 void SlowLine::accept(const std::stop_token& stop) {
@@ -100,8 +69,7 @@ void SlowLine::accept(const std::stop_token& stop) {
     for (const int fd : {client, server}) {
       setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
     }
-    const sockaddr_in address = loopback(server_port_);
-    if (connect(server, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    if (!connectTo(server, server_port_)) {
       close(client);
       close(server);
       continue;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ctrl-C while the server accepts connections and never answers.
-#include <arpa/inet.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <string>
 
 #include "e2e/client/command_answer.h"
+#include "support/loopback.h"
 
 namespace viewloom::test::interrupt_test {
 namespace {
@@ -17,22 +15,11 @@ namespace {
 // A server that never answers: connections wait in the queue of its socket.
 class HungServer {
  public:
-  HungServer() : listener_(socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof(address);
-    EXPECT_EQ(bind(listener_, reinterpret_cast<const sockaddr*>(&address), size), 0);
-    EXPECT_EQ(listen(listener_, 16), 0);
-    EXPECT_EQ(getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size), 0);
-    port_ = ntohs(address.sin_port);
-  }
   ~HungServer() { close(listener_); }
-  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+  std::string address() const { return addressOf(listener_); }
 
  private:
-  const int listener_;
-  uint16_t port_ = 0;
+  const int listener_ = listenAnywhere();
 };
 
 double secondsUntilInterrupted(const HungServer& server, const std::string& after_s,

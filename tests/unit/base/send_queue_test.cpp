@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/send_queue.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <linux/sockios.h>
-#include <netinet/in.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -13,6 +11,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/loopback.h"
+
 namespace viewloom::send_queue_test {
 namespace {
 
@@ -20,16 +20,8 @@ namespace {
 class Ends {
  public:
   Ends() {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof address;
-    auto* const any = reinterpret_cast<sockaddr*>(&address);
-    const int listener = socket(AF_INET, SOCK_STREAM, 0);
-    EXPECT_EQ(bind(listener, any, size), 0);
-    EXPECT_EQ(listen(listener, 1), 0);
-    EXPECT_EQ(getsockname(listener, any, &size), 0);
-    EXPECT_EQ(connect(reader_, any, size), 0);
+    const int listener = test::listenAnywhere();
+    EXPECT_TRUE(test::connectTo(reader_, test::portIn(test::addressOf(listener))));
     writer = accept4(listener, nullptr, nullptr, SOCK_NONBLOCK);
     close(listener);
   }

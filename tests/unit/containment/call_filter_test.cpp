@@ -4,7 +4,6 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/personality.h>
@@ -21,6 +20,8 @@
 #include <cstring>
 #include <functional>
 #include <thread>
+
+#include "support/loopback.h"
 
 namespace viewloom::call_filter_test {
 namespace {
@@ -65,9 +66,7 @@ TEST(CallFilter, refusesOtherKindsOfSockets) {
 
 TEST(CallFilter, callsNobody) {
   expectFiltered([] {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    const sockaddr_in address = test::loopback(0);
     return isRefused(connect(socket(AF_INET, SOCK_STREAM, 0),
                              reinterpret_cast<const sockaddr*>(&address), sizeof address));
   });
@@ -77,10 +76,8 @@ TEST(CallFilter, callsNobody) {
 TEST(CallFilter, sendsOnlyToThoseWhoHaveConnected) {
   expectFiltered([] {
     const int listener = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
+    sockaddr_in address = test::loopback(0);
     socklen_t size = sizeof address;
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     auto* const place = reinterpret_cast<sockaddr*>(&address);
     const bool listens = bind(listener, place, size) == 0 && listen(listener, 1) == 0 &&
                          getsockname(listener, place, &size) == 0;

@@ -2,10 +2,8 @@
 // Each case confines a child of the test, as nobody gets rights back.
 #include "containment/landlock.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -15,6 +13,8 @@
 #include <fstream>
 #include <functional>
 #include <thread>
+
+#include "support/loopback.h"
 
 namespace viewloom::landlock_test {
 namespace {
@@ -28,19 +28,11 @@ int errorOfOpen(const fs::path& path, int flags) {
   return error;
 }
 
-sockaddr_in loopback(uint16_t port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(port);
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  return address;
-}
-
 using SocketCall = int (*)(int, const sockaddr*, socklen_t);
 
 int errorOf(SocketCall call, uint16_t port) {
   const int tcp = socket(AF_INET, SOCK_STREAM, 0);
-  const sockaddr_in address = loopback(port);
+  const sockaddr_in address = test::loopback(port);
   const int error =
       call(tcp, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 ? 0 : errno;
   close(tcp);

@@ -2,7 +2,6 @@
 #include "rpc/rpc_listener.h"
 
 #include <gtest/gtest.h>
-#include <netinet/in.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -17,6 +16,7 @@
 
 #include "admission/display_price.h"
 #include "rpc/listening_sockets.h"
+#include "support/loopback.h"
 
 namespace viewloom::rpc_listener_test {
 namespace {
@@ -73,13 +73,7 @@ class Client {
  public:
   Client() : fd_(socket(AF_INET, SOCK_STREAM, 0)) {}
   ~Client() { close(fd_); }
-  bool connectTo(uint16_t port) const {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    return connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
-  }
+  bool connectTo(uint16_t port) const { return test::connectTo(fd_, port); }
   // Whether the other end has closed the connection, within a second.
   bool isClosed() const {
     const timeval limit{.tv_sec = 1, .tv_usec = 0};
