@@ -14,11 +14,15 @@
 namespace viewloom::test {
 namespace {
 
-constexpr int kTick_ms = 10;
 // Kernel buffers on the way: what a line of a few hops holds. The kernel doubles them.
 constexpr int kBufferBytes = 32 << 10;
 // Bytes that may go at once after a pause, in milliseconds of the line.
 constexpr double kBurst_ms = 20;
+
+void sendAtOnce(int socket) {
+  const int on = 1;
+  setsockopt(socket, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+}
 
 // Bytes that may go now; grows with time at the speed of the line.
 class Allowance {
@@ -39,75 +43,46 @@ class Allowance {
   double bytes_ = 0;
 };
 
+int dial(uint16_t server_port) {
+  const int server = socket(AF_INET, SOCK_STREAM, 0);
+  setsockopt(server, SOL_SOCKET, SO_RCVBUF, &kBufferBytes, sizeof(kBufferBytes));
+  sendAtOnce(server);
+  if (connectTo(server, server_port)) return server;
+  close(server);
+  return -1;
+}
+
 }  // namespace
 
 SlowLine::SlowLine(const std::string& server_address, double mbit_per_second)
-    : server_port_(portIn(server_address)),
-      listener_(listenAnywhere()),
-      acceptor_([this](const std::stop_token& stop) { accept(stop); }) {
+    : proxy_(
+          listenAnywhere(), [port = portIn(server_address)] { return dial(port); },
+          [this](const std::stop_token& stop, int server, int client) {
+            passBack(stop, server, client);
+          }) {
   setSpeed(mbit_per_second);
 }
 
-SlowLine::~SlowLine() {
-  acceptor_ = {};
-  passers_.clear();
-  close(listener_);
-}
-
 std::string SlowLine::address() const {
-  return addressOf(listener_);
+  return addressOf(proxy_.listener());
 }
 
-void SlowLine::accept(const std::stop_token& stop) {
+void SlowLine::passBack(const std::stop_token& stop, int server, int client) const {
+  setsockopt(client, SOL_SOCKET, SO_SNDBUF, &kBufferBytes, sizeof(kBufferBytes));
+  sendAtOnce(client);
+  std::vector<uint8_t> bytes(1 << 16);
+  Allowance allowance;
   while (!stop.stop_requested()) {
-    if (!isReadable(listener_, kTick_ms)) continue;
-    const int client = ::accept(listener_, nullptr, nullptr);
-    const int server = socket(AF_INET, SOCK_STREAM, 0);
-    setsockopt(server, SOL_SOCKET, SO_RCVBUF, &kBufferBytes, sizeof(kBufferBytes));
-    setsockopt(client, SOL_SOCKET, SO_SNDBUF, &kBufferBytes, sizeof(kBufferBytes));
-    const int on = 1;
-    for (const int fd : {client, server}) {
-      setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
-    }
-    if (!connectTo(server, server_port_)) {
-      close(client);
-      close(server);
+    if (!isReadable(server, kProxyTick_ms)) continue;
+    const size_t allowed = std::min(allowance.take(bytes_per_ms_), bytes.size());
+    if (allowed == 0) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
       continue;
     }
-    passers_.emplace_back(
-        [this, client, server](const std::stop_token& passing) { pass(passing, client, server); });
+    const ssize_t count = recv(server, bytes.data(), allowed, 0);
+    if (count <= 0 || !sendAll(client, bytes.data(), size_t(count))) return;
+    allowance.spend(size_t(count));
   }
-}
-
-void SlowLine::pass(const std::stop_token& stop, int client, int server) {
-  {
-    const std::jthread to_server([&] {
-      std::vector<uint8_t> bytes(1 << 16);
-      while (!stop.stop_requested()) {
-        if (!isReadable(client, kTick_ms)) continue;
-        const ssize_t count = recv(client, bytes.data(), bytes.size(), 0);
-        if (count <= 0 || !sendAll(server, bytes.data(), size_t(count))) break;
-      }
-      shutdown(server, SHUT_RDWR);
-    });
-    std::vector<uint8_t> bytes(1 << 16);
-    Allowance allowance;
-    while (!stop.stop_requested()) {
-      if (!isReadable(server, kTick_ms)) continue;
-      const size_t allowed = std::min(allowance.take(bytes_per_ms_), bytes.size());
-      if (allowed == 0) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-        continue;
-      }
-      const ssize_t count = recv(server, bytes.data(), allowed, 0);
-      if (count <= 0 || !sendAll(client, bytes.data(), size_t(count))) break;
-      allowance.spend(size_t(count));
-    }
-    shutdown(client, SHUT_RDWR);
-    shutdown(server, SHUT_RDWR);
-  }
-  close(client);
-  close(server);
 }
 
 }  // namespace viewloom::test

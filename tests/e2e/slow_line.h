@@ -5,8 +5,8 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
-#include <thread>
-#include <vector>
+
+#include "support/proxy.h"
 
 namespace viewloom::test {
 
@@ -17,23 +17,15 @@ class SlowLine {
  public:
   // `server_address`: "127.0.0.1:PORT".
   SlowLine(const std::string& server_address, double mbit_per_second);
-  ~SlowLine();
-  SlowLine(const SlowLine&) = delete;
-  SlowLine& operator=(const SlowLine&) = delete;
 
   std::string address() const;
   void setSpeed(double mbit_per_second) { bytes_per_ms_ = mbit_per_second * 1e6 / 8 / 1e3; }
 
  private:
-  void accept(const std::stop_token& stop);
-  // Until either side closes.
-  void pass(const std::stop_token& stop, int client, int server);
+  void passBack(const std::stop_token& stop, int server, int client) const;
 
-  const uint16_t server_port_;
-  const int listener_;
-  std::atomic<double> bytes_per_ms_;
-  std::vector<std::jthread> passers_;  // the acceptor's own
-  std::jthread acceptor_;              // last: it uses the rest
+  std::atomic<double> bytes_per_ms_ = 0;
+  const Proxy proxy_;  // last: it uses the rest
 };
 
 }  // namespace viewloom::test

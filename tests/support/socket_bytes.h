@@ -10,6 +10,9 @@
 
 namespace viewloom::test {
 
+// A proxy sees within this time that it shall stop.
+inline constexpr int kProxyTick_ms = 10;
+
 // Whether bytes, a connection or the end come within the time.
 inline bool isReadable(int socket, int timeout_ms) {
   pollfd waiting{.fd = socket, .events = POLLIN, .revents = 0};

@@ -18,7 +18,6 @@ namespace {
 using test::isReadable;
 using test::sendAll;
 
-constexpr int kTick_ms = 10;
 constexpr size_t kFrameHeadBytes = 9;
 constexpr uint8_t kFirstCall = 1;  // the stream that a client opens first
 
@@ -37,6 +36,16 @@ int listenAt(const std::string& path) {
     throw std::runtime_error("the proxy cannot listen at " + path);
   }
   return listener;
+}
+
+int dial(const std::string& path) {
+  const int server = socket(AF_UNIX, SOCK_STREAM, 0);
+  const sockaddr_un address = socketAddress(path);
+  if (connect(server, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0) {
+    return server;
+  }
+  close(server);
+  return -1;
 }
 
 bool sendReset(int socket, uint32_t code) {
@@ -87,13 +96,13 @@ class FrameEnds {
 ResettingProxy::ResettingProxy(const std::string& server_address)
     : server_path_(server_address.substr(std::strlen("unix:"))),
       path_(server_path_ + ".proxy"),
-      listener_(listenAt(path_)),
-      acceptor_([this](const std::stop_token& stop) { accept(stop); }) {}
+      proxy_(
+          listenAt(path_), [this] { return dial(server_path_); },
+          [this](const std::stop_token& stop, int server, int client) {
+            passBack(stop, server, client);
+          }) {}
 
 ResettingProxy::~ResettingProxy() {
-  acceptor_ = {};
-  passers_.clear();
-  close(listener_);
   unlink(path_.c_str());
 }
 
@@ -101,46 +110,19 @@ void ResettingProxy::resetStream(uint32_t error_code) {
   reset_code_ = error_code;
 }
 
-void ResettingProxy::accept(const std::stop_token& stop) {
-  while (!stop.stop_requested()) {
-    if (!isReadable(listener_, kTick_ms)) continue;
-    const int client = ::accept(listener_, nullptr, nullptr);
-    const int server = socket(AF_UNIX, SOCK_STREAM, 0);
-    const sockaddr_un address = socketAddress(server_path_);
-    if (connect(server, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-      close(client);
-      close(server);
-      continue;
-    }
-    passers_.emplace_back(
-        [this, client, server](const std::stop_token& passing) { pass(passing, client, server); });
-  }
-}
-
-void ResettingProxy::pass(const std::stop_token& stop, int client, int server) {
-  const std::jthread to_server([&] {
-    std::vector<uint8_t> bytes(1 << 16);
-    while (!stop.stop_requested()) {
-      if (!isReadable(client, kTick_ms)) continue;
-      const ssize_t count = recv(client, bytes.data(), bytes.size(), 0);
-      if (count <= 0 || !sendAll(server, bytes.data(), size_t(count))) break;
-    }
-    shutdown(server, SHUT_RDWR);
-  });
+void ResettingProxy::passBack(const std::stop_token& stop, int server, int client) {
   std::vector<uint8_t> bytes(1 << 16);
   FrameEnds ends;
   while (!stop.stop_requested()) {
     if (ends.isBetween()) {
       const int64_t code = reset_code_.exchange(-1);
-      if (code >= 0 && !sendReset(client, uint32_t(code))) break;
+      if (code >= 0 && !sendReset(client, uint32_t(code))) return;
     }
-    if (!isReadable(server, kTick_ms)) continue;
+    if (!isReadable(server, test::kProxyTick_ms)) continue;
     const ssize_t count = recv(server, bytes.data(), std::min(bytes.size(), ends.left()), 0);
-    if (count <= 0 || !sendAll(client, bytes.data(), size_t(count))) break;
+    if (count <= 0 || !sendAll(client, bytes.data(), size_t(count))) return;
     ends.took(bytes.data(), size_t(count));
   }
-  shutdown(client, SHUT_RDWR);
-  shutdown(server, SHUT_RDWR);
 }
 
 }  // namespace viewloom

@@ -5,8 +5,8 @@
 #include <atomic>
 #include <cstdint>
 #include <string>
-#include <thread>
-#include <vector>
+
+#include "support/proxy.h"
 
 namespace viewloom {
 
@@ -25,16 +25,12 @@ class ResettingProxy {
   void resetStream(uint32_t error_code);
 
  private:
-  void accept(const std::stop_token& stop);
-  // Until either side closes.
-  void pass(const std::stop_token& stop, int client, int server);
+  void passBack(const std::stop_token& stop, int server, int client);
 
   const std::string server_path_;
   const std::string path_;
-  const int listener_;
   std::atomic<int64_t> reset_code_ = -1;  // to send; -1 = none
-  std::vector<std::jthread> passers_;     // the acceptor's own
-  std::jthread acceptor_;                 // last: it uses the rest
+  const test::Proxy proxy_;               // last: it uses the rest
 };
 
 }  // namespace viewloom
