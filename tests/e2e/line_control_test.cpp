@@ -17,6 +17,7 @@
 #include <gtest/gtest.h>
 
 #include "base/send_queue.h"
+#include "e2e/arrivals.h"
 #include "e2e/slow_line.h"
 #include "publish/display_coding.h"
 #include "support/loopback.h"
@@ -43,12 +44,6 @@ uint64_t bytesAt(uint32_t qp) {
 struct AtlasHead {
   uint64_t bytes = 0;
   int64_t made_ns = 0;
-  uint32_t qp = 0;
-};
-
-struct Arrival {
-  int64_t at_ns = 0;
-  int64_t latency_ns = 0;
   uint32_t qp = 0;
 };
 
@@ -109,22 +104,6 @@ bool readAll(int socket, uint8_t* bytes, size_t count) {
   return recv(socket, bytes, count, MSG_WAITALL) == ssize_t(count);
 }
 
-std::vector<Arrival> between(const std::vector<Arrival>& all, int64_t from_ns, int64_t until_ns) {
-  std::vector<Arrival> found;
-  std::ranges::copy_if(all, std::back_inserter(found), [&](const Arrival& arrival) {
-    return arrival.at_ns >= from_ns && arrival.at_ns < until_ns;
-  });
-  return found;
-}
-
-int64_t longestGapNs(const std::vector<Arrival>& arrivals) {
-  int64_t longest_ns = 0;
-  for (size_t i = 1; i < arrivals.size(); ++i) {
-    longest_ns = std::max(longest_ns, arrivals[i].at_ns - arrivals[i - 1].at_ns);
-  }
-  return longest_ns;
-}
-
 int64_t medianLatencyNs(const std::vector<Arrival>& arrivals) {
   std::vector<int64_t> latencies_ns;
   for (const Arrival& arrival : arrivals) latencies_ns.push_back(arrival.latency_ns);
@@ -143,7 +122,10 @@ TEST(LineControl, followsALineDownAndUpWithoutAGap) {
     while (readAll(connection.client(), reinterpret_cast<uint8_t*>(&head), sizeof(head)) &&
            readAll(connection.client(), bytes.data(), head.bytes)) {
       const int64_t now_ns = nowNs();
-      arrivals.push_back({.at_ns = now_ns, .latency_ns = now_ns - head.made_ns, .qp = head.qp});
+      arrivals.push_back({.at_ns = now_ns,
+                          .latency_ns = now_ns - head.made_ns,
+                          .bytes = head.bytes,
+                          .qp = head.qp});
     }
   });
   std::jthread writer(

@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "e2e/arrivals.h"
 #include "e2e/service_fixture.h"
 #include "e2e/slow_line.h"
 #include "lib/watcher.h"
@@ -23,15 +24,6 @@ using std::chrono::seconds;
 constexpr int64_t kMs = 1'000'000;
 constexpr uint32_t kFinestQp = 20;
 
-// An atlas as it came.
-struct Seen {
-  int64_t at_ns = 0;
-  int64_t latency_ns = 0;
-  uint64_t bytes = 0;
-  uint64_t frame_number = 0;
-  uint32_t qp = 0;
-};
-
 uint64_t bytesOf(const Atlas& atlas) {
   uint64_t bytes = 0;
   for (const AtlasBand& band : atlas.bands) bytes += band.bytes.size();
@@ -41,18 +33,14 @@ uint64_t bytesOf(const Atlas& atlas) {
 // Thread-safety: all methods may be called from any thread.
 class SeenAtlases {
  public:
-  void add(const Seen& seen) {
+  void add(const Arrival& arrival) {
     std::lock_guard lock(mutex_);
-    all_.push_back(seen);
+    all_.push_back(arrival);
     came_.notify_all();
   }
-  std::vector<Seen> between(int64_t from_ns, int64_t until_ns) const {
-    std::vector<Seen> found;
+  std::vector<Arrival> all() const {
     std::lock_guard lock(mutex_);
-    std::ranges::copy_if(all_, std::back_inserter(found), [&](const Seen& seen) {
-      return seen.at_ns >= from_ns && seen.at_ns < until_ns;
-    });
-    return found;
+    return all_;
   }
   bool waitForQp(uint32_t qp, seconds patience) {
     std::unique_lock lock(mutex_);
@@ -62,20 +50,14 @@ class SeenAtlases {
  private:
   mutable std::mutex mutex_;
   std::condition_variable came_;
-  std::vector<Seen> all_;
+  std::vector<Arrival> all_;
 };
 
-int64_t longestGapNs(const std::vector<Seen>& atlases) {
+int64_t longestLatencyNs(const std::vector<Arrival>& atlases) {
   int64_t longest_ns = 0;
-  for (size_t i = 1; i < atlases.size(); ++i) {
-    longest_ns = std::max(longest_ns, atlases[i].at_ns - atlases[i - 1].at_ns);
+  for (const Arrival& arrival : atlases) {
+    longest_ns = std::max(longest_ns, arrival.latency_ns);
   }
-  return longest_ns;
-}
-
-int64_t longestLatencyNs(const std::vector<Seen>& atlases) {
-  int64_t longest_ns = 0;
-  for (const Seen& seen : atlases) longest_ns = std::max(longest_ns, seen.latency_ns);
   return longest_ns;
 }
 
@@ -109,14 +91,29 @@ class ServiceSlowLineTest : public ServiceFixture {
     return open;
   }
 
+  WatcherCallbacks noteAll() {
+    return {.on_layout = {},
+            .on_atlas =
+                [this](const Atlas& atlas) {
+                  const int64_t now_ns = clock_.nowNs();
+                  seen_.add({.at_ns = now_ns,
+                             .latency_ns = now_ns - atlas.header.capture_time_ns(),
+                             .bytes = bytesOf(atlas),
+                             .frame_number = atlas.header.frame_number(),
+                             .qp = atlas.header.video_qp()});
+                },
+            .on_connection = {},
+            .on_message = {}};
+  }
+
   // The time now, after as long a wait.
   int64_t after(seconds wait) {
     std::this_thread::sleep_for(wait);
     return clock_.nowNs();
   }
 
-  std::vector<Seen> tell(const char* phase, int64_t from_ns, int64_t until_ns) {
-    const std::vector<Seen> seen = seen_.between(from_ns, until_ns);
+  std::vector<Arrival> tell(const char* phase, int64_t from_ns, int64_t until_ns) {
+    const std::vector<Arrival> seen = between(seen_.all(), from_ns, until_ns);
     std::printf("%s: %zu atlases, longest gap %.0f ms, longest latency %.0f ms, QP %u, %.0f kB\n",
                 phase, seen.size(), double(longestGapNs(seen)) * 1e-6,
                 double(longestLatencyNs(seen)) * 1e-6, seen.empty() ? 0 : seen.back().qp,
@@ -129,24 +126,12 @@ class ServiceSlowLineTest : public ServiceFixture {
 
 TEST_F(ServiceSlowLineTest, followsALineDownAndUp) {
   SlowLine line(service_->grpcAddress(), 1000);
-  Watcher watcher(makeChannel(line.address()), fineVideo(),
-                  {.on_layout = {},
-                   .on_atlas =
-                       [this](const Atlas& atlas) {
-                         const int64_t now_ns = clock_.nowNs();
-                         seen_.add({.at_ns = now_ns,
-                                    .latency_ns = now_ns - atlas.header.capture_time_ns(),
-                                    .bytes = bytesOf(atlas),
-                                    .frame_number = atlas.header.frame_number(),
-                                    .qp = atlas.header.video_qp()});
-                       },
-                   .on_connection = {},
-                   .on_message = {}});
+  Watcher watcher(makeChannel(line.address()), fineVideo(), noteAll());
   std::optional<MovingScene> scene(std::in_place, service_->grpcAddress(), clock_);
   ASSERT_TRUE(seen_.waitForQp(kFinestQp, kGiveUpAfter));
   const int64_t fast_ns = after(seconds(1));
   const int64_t slow_ns = after(seconds(4));
-  const std::vector<Seen> fast = tell("fast line", fast_ns, slow_ns);
+  const std::vector<Arrival> fast = tell("fast line", fast_ns, slow_ns);
   ASSERT_GT(fast.size(), 4u);
   // A quarter of what the display takes.
   const double taken_mbit = double(fast.back().bytes) * 8e-6 * double(fast.size()) / 4;
@@ -154,8 +139,8 @@ TEST_F(ServiceSlowLineTest, followsALineDownAndUp) {
   const int64_t settled_ns = after(seconds(1));
   const int64_t middle_ns = after(seconds(3));
   const int64_t again_ns = after(seconds(3));
-  const std::vector<Seen> early = tell("slow line, first half", settled_ns, middle_ns);
-  const std::vector<Seen> late = tell("slow line, second half", middle_ns, again_ns);
+  const std::vector<Arrival> early = tell("slow line, first half", settled_ns, middle_ns);
+  const std::vector<Arrival> late = tell("slow line, second half", middle_ns, again_ns);
   line.setSpeed(1000);
   EXPECT_TRUE(seen_.waitForQp(kFinestQp, seconds(25)));
   tell("fast line again", again_ns, clock_.nowNs());
@@ -173,22 +158,13 @@ TEST_F(ServiceSlowLineTest, followsALineDownAndUp) {
 
 TEST_F(ServiceSlowLineTest, sendsTheFinestAtlasOnceFramesStand) {
   SlowLine line(service_->grpcAddress(), 1);
-  Watcher watcher(makeChannel(line.address()), fineVideo(),
-                  {.on_layout = {},
-                   .on_atlas =
-                       [this](const Atlas& atlas) {
-                         seen_.add({.at_ns = clock_.nowNs(),
-                                    .frame_number = atlas.header.frame_number(),
-                                    .qp = atlas.header.video_qp()});
-                       },
-                   .on_connection = {},
-                   .on_message = {}});
+  Watcher watcher(makeChannel(line.address()), fineVideo(), noteAll());
   {
     const MovingScene scene(service_->grpcAddress(), clock_);
     ASSERT_TRUE(seen_.waitForQp(kFinestQp + 16, kGiveUpAfter));
   }
   ASSERT_TRUE(seen_.waitForQp(kFinestQp, kGiveUpAfter));
-  const std::vector<Seen> seen = seen_.between(0, INT64_MAX);
+  const std::vector<Arrival> seen = seen_.all();
   EXPECT_EQ(seen.back().frame_number, seen[seen.size() - 2].frame_number);
 }
 
