@@ -4,42 +4,23 @@
 
 #include <cmath>
 #include <cstring>
-#include <future>
-#include <string>
+#include <utility>
 
-#include "e2e/test_server.h"
-#include "lib/channel.h"
-#include "lib/publisher.h"
+#include "e2e/frame_round_trip.h"
 #include "support/depth_reference.h"
 #include "synthetic/synthetic_wire_frame.h"
 
 namespace viewloom::predicted_depth_test {
 namespace {
 
-constexpr int64_t kLong_ns = 60'000'000'000;  // only a failing test waits so long
+using test::Arrived;
+
 constexpr SizePx kSize_px{320, 180};
 
-struct Arrived {
-  CompressedFrame sent;
-  FramePtr frame;
-};
-
-// One frame, to the server's frame and back here.
 Arrived sendPredicted(WireFrame frame) {
-  TestServer server;
-  std::promise<void> has_report;
-  Arrived arrived;
-  PublisherCallbacks callbacks;
-  callbacks.on_sent = [&](const CompressedFrame& sent) { arrived.sent = sent; };
-  callbacks.on_report = [&](const v1::FrameReport&) { has_report.set_value(); };
-  Publisher publisher(makeChannel(server.address()),
-                      {.stream = "s", .session_id = {}, .predicts_depth = true}, callbacks);
-  publisher.offer(std::move(frame));
-  EXPECT_EQ(has_report.get_future().wait_for(std::chrono::nanoseconds(kLong_ns)),
-            std::future_status::ready);
-  arrived.frame = server.sink().resident("s");
-  EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
-  return arrived;
+  PublisherOptions options;
+  options.predicts_depth = true;
+  return test::sendFrame(std::move(frame), options);
 }
 
 TEST(PredictedDepth, reachesTheServerWithinHalfAStep) {

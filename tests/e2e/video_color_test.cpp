@@ -5,47 +5,23 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <future>
-#include <string>
+#include <utility>
 
-#include "e2e/test_server.h"
-#include "lib/channel.h"
-#include "lib/publisher.h"
+#include "e2e/frame_round_trip.h"
 #include "synthetic/synthetic_wire_frame.h"
 
 namespace viewloom::video_color_test {
 namespace {
 
-constexpr int64_t kLong_ns = 60'000'000'000;  // only a failing test waits so long
+using test::Arrived;
+
 constexpr SizePx kSize_px{321, 181};
 
-struct Arrived {
-  CompressedFrame sent;
-  v1::FrameReport report;
-  FramePtr frame;
-};
-
-// One frame, to the server's frame and back here.
 Arrived sendAsVideo(WireFrame frame, bool predicts_depth) {
-  TestServer server;
-  std::promise<v1::FrameReport> report;
-  Arrived arrived;
-  PublisherCallbacks callbacks;
-  callbacks.on_sent = [&](const CompressedFrame& sent) { arrived.sent = sent; };
-  callbacks.on_report = [&](const v1::FrameReport& its) { report.set_value(its); };
-  Publisher publisher(makeChannel(server.address()),
-                      {.stream = "s",
-                       .session_id = {},
-                       .predicts_depth = predicts_depth,
-                       .color_video = ColorVideo{}},
-                      callbacks);
-  publisher.offer(std::move(frame));
-  auto future = report.get_future();
-  EXPECT_EQ(future.wait_for(std::chrono::nanoseconds(kLong_ns)), std::future_status::ready);
-  arrived.report = future.get();
-  arrived.frame = server.sink().resident("s");
-  EXPECT_EQ(publisher.finish(kLong_ns), absl::OkStatus());
-  return arrived;
+  PublisherOptions options;
+  options.predicts_depth = predicts_depth;
+  options.color_video = ColorVideo{};
+  return test::sendFrame(std::move(frame), options);
 }
 
 TEST(VideoColor, reachesTheServerWithSmallErrors) {
