@@ -26,11 +26,6 @@ class Choices(PageTest):
         self.addCleanup(lambda: self.server.__exit__())
         self.start_browser()
 
-    def choose(self, value):
-        self.browser.evaluate(
-            f"(s => {{ s.value = {value!r}; s.dispatchEvent(new Event('change')); }})"
-            "(document.getElementById('preset'))")
-
     def watch_views_of(self, width, height):
         for name, value in (("width", width), ("height", height), ("screen_m", 2)):
             self.browser.evaluate(f"document.getElementById('rgbd-{name}').value = {value}")
@@ -57,7 +52,7 @@ class Choices(PageTest):
     def test_a_preset_of_colour_with_depth_is_watched_whole(self):
         self.open("?" + asked(quilt(8, 6, 1680, 1680, focal_distance_m=2,
                                     beside={"focus_following_s": 1}), mode="rgbd"))
-        self.choose("wowvx")
+        self.fill("preset", "wowvx")
         self.browser.wait_for(f"{FACTS}.includes('1920 × 540')")
         note = self.browser.evaluate("document.getElementById('rgbd-note').textContent")
         self.assertIn("header", note)
@@ -85,7 +80,7 @@ class Choices(PageTest):
         self.open(self.browser.evaluate("location.search"))
         self.browser.wait_for(f"{FACTS}.includes('640 × 180')")
         self.assertEqual(self.browser.evaluate("document.getElementById('preset').value"), "wowvx")
-        self.choose("portrait")
+        self.fill("preset", "portrait")
         self.browser.wait_for(f"{FACTS}.includes('8 × 6 = 48')")
         self.assertEqual(len(self.browser.evaluate(OPEN_MODES)), 6)
         self.assertTrue(self.browser.evaluate("document.getElementById('rgbd').hidden"))
@@ -95,7 +90,7 @@ class Choices(PageTest):
 
     def test_elemental_images_have_the_size_of_their_device(self):
         self.open("?" + asked(quilt(8, 6, 1680, 1680, focal_distance_m=2), mode="look"))
-        self.choose("near_eye_2013")
+        self.fill("preset", "near_eye_2013")
         self.browser.wait_for(f"{FACTS}.includes('1280 × 720')")
         self.assertEqual(self.browser.evaluate(OPEN_MODES), ["single", "quilt"])
         self.assertTrue(self.browser.evaluate("document.getElementById('rgbd').hidden"))
@@ -106,14 +101,14 @@ class Choices(PageTest):
 
     def test_two_layers_are_four_quadrants(self):
         self.open(SMALL + "&mode=quilt")
-        self.choose("rgbd:RGBD_FORM_TWO_LAYERS")
+        self.fill("preset", "rgbd:RGBD_FORM_TWO_LAYERS")
         self.watch_views_of(320, 180)
         self.browser.wait_for(f"{FACTS}.includes('640 × 360')")
         self.assertEqual(self.codes(2, 2), [0, 1, 2, 3])
         self.assertIn('"form":"RGBD_FORM_TWO_LAYERS"', self.browser.evaluate(WATCH))
         self.assertIn("/still/painted.jpg?display=",
                       self.browser.evaluate("document.getElementById('command-still').value"))
-        self.choose("")
+        self.fill("preset", "")
         self.browser.wait_for(f"{FACTS}.includes('8 × 6 = 48')")
 
     def test_a_full_screen_shows_nothing_but_the_picture(self):
@@ -173,9 +168,7 @@ class Choices(PageTest):
         self.open()
         before = self.browser.evaluate(DISPLAY_IDS)
         self.browser.wait_for("!document.getElementById('lens').disabled")
-        self.browser.evaluate(
-            "(s => { s.value = '0.03'; s.dispatchEvent(new Event('change')); })"
-            "(document.getElementById('lens'))")
+        self.fill("lens", "0.03")
         self.browser.wait_for(f"{DISPLAY}?.effects.lens.aperture_radius_m === 0.03")
         self.browser.wait_for(f"{WATCH}.includes('\"aperture_radius_m\":0.03')")
         self.browser.wait_for(f"{DISPLAY_IDS}.then(ids => ids.length === 1 && "
@@ -204,9 +197,7 @@ class Choices(PageTest):
                 ("effort", "draft", "quality", '"quality":"QUALITY_DRAFT"')):
             before = self.browser.evaluate(DISPLAY_IDS)
             for chosen in (value, ""):
-                self.browser.evaluate(
-                    f"(s => {{ s.value = '{chosen}'; s.dispatchEvent(new Event('change')); }})"
-                    f"(document.getElementById('{name}'))")
+                self.fill(name, chosen)
                 if not chosen:
                     self.browser.wait_for(f"!{DISPLAY}?.{address}")
                     self.browser.wait_for(f"!{WATCH}.includes('{command}')")
@@ -225,9 +216,7 @@ class Choices(PageTest):
         notice = "document.getElementById('notice').textContent"
         self.browser.open(self.server.url + "?stream=silent")
         self.browser.wait_for(f"{notice}.includes('Still waiting for the picture')")
-        self.browser.evaluate(
-            "(s => { s.value = 'painted'; s.dispatchEvent(new Event('change')); })"
-            "(document.getElementById('stream'))")
+        self.fill("stream", "painted")
         self.browser.wait_for(f"{LIVE} && {notice} === ''")
 
     def test_fingers_hit_the_fields_of_colour_with_depth_and_the_checkbox(self):

@@ -155,8 +155,7 @@ class Modes(PageTest):
 
     def test_a_custom_quilt_is_watched_as_asked(self):
         self.open("?stream=painted&preset=8_9_gen1&mode=quilt")
-        self.browser.evaluate("(s => { s.value = ''; s.dispatchEvent(new Event('change')); })"
-                              "(document.getElementById('preset'))")
+        self.fill("preset", "")
         fields = {"columns": 4, "rows": 3, "width": 400, "height": 480, "aspect": 1.25}
         for name, value in fields.items():
             self.assertNotEqual(
