@@ -35,20 +35,20 @@ struct Broadcaster::State {
   bool is_draining = false;
   WatchedDisplays displays;
 
-  absl::Status checkRoom(bool opens_display) const {
+  absl::Status checkRoom(bool opens_display, const WatcherPlace& left) const {
     if (is_draining) return absl::UnavailableError("the server is shutting down; try again later");
-    return displays.checkRoom(opens_display);
+    return displays.checkRoom(opens_display, left);
   }
   uint64_t takeId() {
     std::lock_guard lock(mutex);
     return displays.takeId();
   }
   absl::StatusOr<Seat> admit(const ActiveDisplay& display, const std::string& key,
-                             const Subscriber& subscriber) const;
+                             const Subscriber& subscriber, const WatcherPlace& left) const;
   struct Joined;
   absl::StatusOr<std::optional<Joined>> join(const ActiveDisplay& display, const std::string& key,
                                              const std::shared_ptr<Subscriber>& subscriber,
-                                             Seat& seat);
+                                             Seat& seat, const WatcherPlace& left);
   void announce(const std::string& stream) const {
     if (on_demand_change) on_demand_change(stream);
   }
@@ -60,17 +60,19 @@ struct Broadcaster::State::Joined {
   ActiveDisplayPtr display;
   AtlasPtr newest;
   GrowingAtlasPtr growing;
+  std::string left;  // stream of the display that has gone with the place left; else empty
 };
 
 // Without the lock while memory is asked for: idle memory may have to be given up for it, whose
 // owner may ask this broadcaster.
 absl::StatusOr<Seat> Broadcaster::State::admit(const ActiveDisplay& display, const std::string& key,
-                                               const Subscriber& subscriber) const {
+                                               const Subscriber& subscriber,
+                                               const WatcherPlace& left) const {
   bool opens = false;
   {
     std::lock_guard lock(mutex);
     opens = !displays.isOpen(key);
-    VIEWLOOM_RETURN_IF_ERROR(checkRoom(opens));
+    VIEWLOOM_RETURN_IF_ERROR(checkRoom(opens, left));
   }
   return admitSeat(memory, display.spec, display.encoding, subscriber.identity(), opens);
 }
@@ -78,16 +80,19 @@ absl::StatusOr<Seat> Broadcaster::State::admit(const ActiveDisplay& display, con
 // None = the display has been closed since the seat was admitted.
 absl::StatusOr<std::optional<Broadcaster::State::Joined>> Broadcaster::State::join(
     const ActiveDisplay& display, const std::string& key,
-    const std::shared_ptr<Subscriber>& subscriber, Seat& seat) {
+    const std::shared_ptr<Subscriber>& subscriber, Seat& seat, const WatcherPlace& left) {
   std::lock_guard lock(mutex);
   const bool is_open = displays.isOpen(key);
   if (!is_open && !seat.opens) return std::nullopt;
-  VIEWLOOM_RETURN_IF_ERROR(checkRoom(!is_open));
+  VIEWLOOM_RETURN_IF_ERROR(checkRoom(!is_open, left));
   auto member = std::make_shared<Member>(displays.takeId(), subscriber, std::move(seat.viewer));
   WatchedDisplay& joined =
       is_open ? displays.at(key) : displays.open(display, key, std::move(seat.display));
   displays.add(joined, member);
-  return Joined{std::move(member), joined.active, joined.newest, joined.growing};
+  std::string left_stream;
+  displays.remove(left.display_id, left.member_id, left_stream);
+  return Joined{std::move(member), joined.active, joined.newest, joined.growing,
+                std::move(left_stream)};
 }
 
 Broadcaster::Broadcaster(BroadcasterLimits limits, MemoryBudget& memory)
@@ -97,7 +102,7 @@ Broadcaster::~Broadcaster() = default;
 
 absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscribe(
     const std::string& stream, const DisplaySpec& spec, const EncodingSpec& encoding,
-    std::shared_ptr<Subscriber> subscriber, EyeTrackPtr eyes) {
+    std::shared_ptr<Subscriber> subscriber, EyeTrackPtr eyes, const Subscription* replaced) {
   VIEWLOOM_CHECK(isTracked(spec) == (eyes != nullptr));
   // A stream's name holds no blank, so that the parts cannot run into each other.
   std::string picture_key = strCat(stream, " ", displayKey(spec), arrangementKey(encoding));
@@ -110,12 +115,14 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
                               .eyes = std::move(eyes),
                               .coding = codingOf(encoding),
                               .chain = chainOf(encoding)};
+  WatcherPlace left;
+  if (replaced != nullptr) left = {replaced->displayId(), replaced->subscriberId()};
   std::optional<State::Joined> joined;
   while (!joined) {
-    absl::StatusOr<Seat> seat = state_->admit(display, key, *subscriber);
+    absl::StatusOr<Seat> seat = state_->admit(display, key, *subscriber, left);
     VIEWLOOM_RETURN_IF_ERROR(seat.status());
     absl::StatusOr<std::optional<State::Joined>> tried =
-        state_->join(display, key, subscriber, *seat);
+        state_->join(display, key, subscriber, *seat, left);
     VIEWLOOM_RETURN_IF_ERROR(tried.status());
     joined = *std::move(tried);
   }
@@ -127,6 +134,7 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
     if (joined->newest != nullptr) joined->display->chain->wantAtOnce();
     state_->announce(stream);
   }
+  if (!joined->left.empty()) state_->announce(joined->left);
   if (joined->growing != nullptr) joined->member->begin(joined->growing);
   return subscription;
 }

@@ -59,12 +59,15 @@ class Broadcaster {
   // Joins or opens the display. A late joiner is offered the newest whole atlas at once, then told
   // of the one that is being made. Where the newest needs another, one is made that does not.
   // A tracked display is this subscriber's alone, seen by `eyes`, which only such a display has.
+  // `replaced`: a place that is left as the new one is taken, so that no limit counts both. It
+  // stays where the new one is refused.
   // RESOURCE_EXHAUSTED over a limit, or where the budget has no room; UNAVAILABLE while draining.
   absl::StatusOr<std::unique_ptr<Subscription>> subscribe(const std::string& stream,
                                                           const DisplaySpec& spec,
                                                           const EncodingSpec& encoding,
                                                           std::shared_ptr<Subscriber> subscriber,
-                                                          EyeTrackPtr eyes = nullptr);
+                                                          EyeTrackPtr eyes = nullptr,
+                                                          const Subscription* replaced = nullptr);
 
   // Called, on the subscriber's thread, whenever the set of displays of a stream changed: a joiner
   // without a finished atlas wants one. Set once, before anybody subscribes.
@@ -117,6 +120,7 @@ class Broadcaster::Subscription {
   Subscription(std::shared_ptr<State> state, const ActiveDisplay& display, uint64_t subscriber_id);
   ~Subscription();
   uint64_t displayId() const { return display_id_; }
+  uint64_t subscriberId() const { return subscriber_id_; }
 
   // Notes of what the subscriber's connection takes; see DisplayCoding. Nothing happens where the
   // quality of the display does not adapt.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "publish/watched_displays.h"
 
+#include <algorithm>
 #include <set>
 #include <utility>
 
@@ -24,13 +25,20 @@ absl::StatusOr<Seat> admitSeat(MemoryBudget& memory, const DisplaySpec& spec,
   return seat;
 }
 
-absl::Status WatchedDisplays::checkRoom(bool opens_display) const {
-  if (member_count_ >= limits_.subscriber_count_max) {
+absl::Status WatchedDisplays::checkRoom(bool opens_display, const WatcherPlace& left) const {
+  const WatchedDisplay* const before = find(left.display_id);
+  const bool leaves =
+      before != nullptr && std::ranges::any_of(before->members, [&](const auto& it) {
+        return it->id() == left.member_id;
+      });
+  const uint32_t left_members = leaves ? 1 : 0;
+  const size_t left_displays = leaves && before->members.size() == 1 ? 1 : 0;
+  if (member_count_ - left_members >= limits_.subscriber_count_max) {
     return absl::ResourceExhaustedError(
         strCat("too many subscribers: this server accepts up to ", limits_.subscriber_count_max,
                " viewers; close one, or raise limits.subscribers_max"));
   }
-  if (opens_display && displays_.size() >= limits_.display_count_max) {
+  if (opens_display && displays_.size() - left_displays >= limits_.display_count_max) {
     return absl::ResourceExhaustedError(
         strCat("too many distinct displays: this server accepts up to ", limits_.display_count_max,
                "; choose one that is watched already, or raise limits.displays_max"));

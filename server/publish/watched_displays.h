@@ -26,6 +26,12 @@ struct WatchedDisplay {
   uint64_t atlas_count = 0;
 };
 
+// A viewer's place at a display; 0 = none.
+struct WatcherPlace {
+  uint64_t display_id = 0;
+  uint64_t member_id = 0;
+};
+
 // Memory of a viewer, and of the display if it opens one.
 struct Seat {
   bool opens = false;
@@ -47,8 +53,8 @@ class WatchedDisplays {
   // Next id of a display or a viewer.
   uint64_t takeId() { return next_id_++; }
 
-  // OK, or over which limit one more viewer is.
-  absl::Status checkRoom(bool opens_display) const;
+  // OK, or over which limit one more viewer is. `left`: the place that this viewer gives up.
+  absl::Status checkRoom(bool opens_display, const WatcherPlace& left) const;
 
   bool isOpen(const std::string& key) const { return id_of_key_.contains(key); }
   // Expects a key that is not open; gives the display its id.

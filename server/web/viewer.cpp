@@ -106,8 +106,8 @@ absl::Status Viewer::subscribe(const AskedDisplay& asked) {
       },
       identity_, *std::move(quota));
   EyeTrackPtr track = eyes_.trackFor(request->display);
-  auto subscription = context_.broadcaster.subscribe(request->stream, request->display,
-                                                     request->encoding, inbox, track);
+  auto subscription = context_.broadcaster.subscribe(
+      request->stream, request->display, request->encoding, inbox, track, subscription_.get());
   VIEWLOOM_RETURN_IF_ERROR(subscription.status());
   if (inbox_) dropped_before_ += inbox_->replacedCount();
   inbox_ = std::move(inbox);

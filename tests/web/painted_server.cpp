@@ -22,8 +22,8 @@ constexpr const char* kAllowOrigin = "--allow-origin";
 
 // Access tokens are those of the file in the variable PAINTED_TOKEN_FILE.
 // Options are pairs: --port 0 --rate-hz 10 --connections 1024 --timeout-ms 10000 --thread-count 2
-// --idle-ms 20000 --transfer-ms 60000 --flat 0 (1: a view is one grey, black the first and white
-// the last).
+// --idle-ms 20000 --transfer-ms 60000 --displays 64 --flat 0 (1: a view is one grey, black the
+// first and white the last).
 std::map<std::string, int> readOptions(int argc, char** argv) {
   std::map<std::string, int> options = {{"--port", 0},
                                         {"--rate-hz", 0},
@@ -33,6 +33,7 @@ std::map<std::string, int> readOptions(int argc, char** argv) {
                                         {"--idle-ms", 20'000},
                                         {"--transfer-ms", 60'000},
                                         {"--ms-per-megapixel", 0},
+                                        {"--displays", 64},
                                         {"--flat", 0}};
   for (int i = 1; i + 1 < argc; i += 2) {
     if (argv[i] != std::string(kAllowOrigin)) options.at(argv[i]) = std::atoi(argv[i + 1]);
@@ -73,7 +74,8 @@ int main(int argc, char** argv) {
   const viewloom::SteadyClock clock;
   viewloom::Metrics metrics;
   viewloom::StreamDirectory streams(clock, 8);
-  viewloom::Broadcaster broadcaster({});
+  viewloom::Broadcaster broadcaster(
+      {.display_count_max = static_cast<uint32_t>(options.at("--displays"))});
   std::optional<viewloom::PaintedStream> painted;
   broadcaster.onDemandChange([&](const std::string& stream) {
     if (stream == "painted") painted->noteDemand();

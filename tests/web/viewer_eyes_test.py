@@ -20,7 +20,10 @@ def poses(*positions, time_ns="1"):
 
 class ViewerEyes(unittest.TestCase):
     def setUp(self):
-        self.server = Server(PROGRAM, "--idle-ms", 60_000)
+        self.serve()
+
+    def serve(self, *options):
+        self.server = Server(PROGRAM, "--idle-ms", 60_000, *options)
         self.addCleanup(self.server.__exit__)
 
     def watch(self, display, encoding=None):
@@ -64,6 +67,18 @@ class ViewerEyes(unittest.TestCase):
         changed = viewer.receive_atlas()
         self.assertEqual(changed.header["layout"]["size"], {"width": 80, "height": 60})
         self.assertEqual(changed.header["eyes"]["time_ns"], "5")
+
+    def test_a_change_of_size_needs_no_second_place(self):
+        self.serve("--displays", 1)
+        viewer = self.tracked()
+        viewer.shown(viewer.receive_atlas())
+        for width in (80, 120, 160):
+            viewer.send_json({"change": {"display": {"stereo": {
+                "layout": "STEREO_LAYOUT_SINGLE", "tracked": True,
+                "eye_size": {"width": width, "height": 60}}}}})
+            changed = viewer.receive_atlas()
+            self.assertEqual(changed.header["layout"]["size"], {"width": width, "height": 60})
+            viewer.shown(changed)
 
     def test_eyes_of_two_viewers_do_not_meet(self):
         viewers = [self.tracked() for _ in range(3)]
