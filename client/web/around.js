@@ -121,7 +121,7 @@ export class Around {
   noteShown(atlas) {
     if (atlas !== this.#shows?.atlas) return;
     this.#poses.shown(atlas.header);
-    this.size.noteShown(atlas.header, performance.now());
+    this.size.noteShown(atlas.header, performance.now(), this.#poses.line_ms);
   }
 
   // Time passes: to be called several times a second.

@@ -79,6 +79,9 @@ export class EyePoses {
 
   takeClock(reply) { this.#clock.add(reply, nowNs()); }
 
+  // How long a message takes to the server and back, ms; null while nobody knows.
+  get line_ms() { return this.#clock.roundTrip_ms; }
+
   // Motion to picture and its parts, ms; null while nobody knows.
   get latency() { return this.#means; }
 }

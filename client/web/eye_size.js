@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How large the picture of an eye is: as large as its canvas where the server can, less where that
-// would be slow while something moves, and as large as the canvas again once nothing does.
+// How large the picture of an eye is: as large as its canvas where the server can, less where its
+// pixels make it slow while something moves, and as large as the canvas again once nothing does.
+import {PixelCost} from './pixel_cost.js';
 
 const kScales = [1, 0.84, 0.7, 0.59, 0.5, 0.42, 0.35, 0.25, 0.18];
 const kHeightMin_px = 360;  // no picture is lower, unless its canvas is
@@ -12,11 +13,14 @@ const kPromised = 1.3;        // more is taken only if it promises so many times
 const kWindow_ms = 1500;      // pictures that a judgement is made of
 const kLeast = 3;             // of them, or two that are far apart
 const kFarApart_ms = 700;
-const kHurry_ms = 350;       // without a picture: the server is too slow, whatever came before
+const kHurry_ms = 350;       // without a picture, beyond the latency of the line: it is too slow
+const kUnderWay = 2;         // pictures that are sent before one was shown (proto/web.md)
+const kWorthShare = 0.1;     // of the time of a picture: a step that saves less is not taken
 const kHold_ms = 3000;       // after a step down, until more is tried
 const kStill_ms = 300;       // without motion the eye stands
 const kStillFrames = 2;      // without so many frames, at their rate, the scene stands
-const kStillMax_ms = 2000;   // frames that are further apart are no motion
+const kStillMax_ms = 2000;   // pictures that are further apart are no motion
+const kStillFrame_ms = 325;  // nor are frames that are published so far apart
 const kMsPerNs = 1e-6;
 
 export class EyeSize {
@@ -26,7 +30,14 @@ export class EyeSize {
   #known = {};      // the step that each motion had
   #eye = {motion: null, time_ms: -Infinity, count: 0};  // its newest move, and their number
   #scene = {time_ms: -Infinity, still_ms: kStill_ms};   // when its newest frame came
-  #shown = [];      // {time_ms, cause, ms, height}, oldest first, of this motion
+  #shown = [];      // {time_ms, cause, height}, oldest first, of this motion
+  #line_ms = null;  // there and back, without anything on it; null = unknown
+  #alike = {height: 0, count: 0};  // pictures of one height that came one after the other
+  // Time that goes with pixels: of making a picture, of its way, and by motion of the time between
+  // two.
+  #making = new PixelCost();
+  #way = new PixelCost();
+  #paces = {};
   #asked_ms = null;  // a pose of this motion that no picture answered yet
   #held_until_ms = -Infinity;
   #frame = null;
@@ -68,6 +79,10 @@ export class EyeSize {
     this.#known = {};
     this.#eye.time_ms = this.#scene.time_ms = -Infinity;
     this.#shown = [];
+    this.#alike = {height: 0, count: 0};
+    this.#making = new PixelCost();
+    this.#way = new PixelCost();
+    this.#paces = {};
     this.#asked_ms = null;
     this.#held_until_ms = -Infinity;
     this.#frame = null;
@@ -81,18 +96,19 @@ export class EyeSize {
     this.#asked_ms ??= now_ms;
   }
 
-  // A picture is on the screen.
-  noteShown({frame_number, layout, times}, now_ms) {
-    if (this.#frame !== null && frame_number !== this.#frame) this.#noteFrame(now_ms);
-    this.#frame = frame_number;
+  // A picture is on the screen. line_ms: how long a message takes there and back; null = unknown
+  noteShown({frame_number, layout, times, shown_ns}, now_ms, line_ms = null) {
+    const frame = Number(frame_number);
+    if (this.#frame !== null && frame !== this.#frame) this.#noteFrame(now_ms, frame - this.#frame);
+    this.#frame = frame;
+    this.#line_ms = line_ms;
     this.#follow(now_ms);
     this.#asked_ms = null;
-    this.#shown.push({
-      time_ms: now_ms, height: layout.tile_size.height,
-      // Number of what pictures are made of: rates of both kinds count from any number.
-      cause: this.#motion === 'scene' ? Number(frame_number) : this.#eye.count,
-      ms: (times.trace_ns + times.encode_ns) * kMsPerNs,
-    });
+    const {height} = layout.tile_size;
+    this.#measure(height, times, shown_ns * kMsPerNs, now_ms);
+    // Number of what pictures are made of: rates of both kinds count from any number.
+    const cause = this.#motion === 'scene' ? frame : this.#eye.count;
+    this.#shown.push({time_ms: now_ms, height, cause});
     // A slow server's newest two count however old they are.
     this.#shown = this.#shown.filter(({time_ms}, index, all) =>
         now_ms - time_ms <= kWindow_ms || index >= all.length - 2);
@@ -103,15 +119,48 @@ export class EyeSize {
   look(now_ms) {
     this.#follow(now_ms);
     const isEye = this.#motion !== null && this.#motion !== 'scene';
-    if (!isEye || this.#asked_ms === null || now_ms - this.#asked_ms <= kHurry_ms) return;
+    const patience_ms = kHurry_ms + (this.#line_ms ?? 0);
+    if (!isEye || this.#asked_ms === null || now_ms - this.#asked_ms <= patience_ms) return;
     this.#asked_ms = now_ms;
-    this.#take(this.#step + 2, now_ms);
+    // One picture may have been slow for another reason, and what takes long now may be no picture.
+    const pixels_ms = this.#pixels_ms(now_ms);
+    if (this.#making.count(this.#pixels) < 2 || 2 * pixels_ms < kHurry_ms) return;
+    const measured = {interval_ms: pixels_ms, pixels_ms, wanted_hz: kWanted_hz[this.#motion]};
+    this.#take(this.#lower(measured), now_ms);
   }
 
-  // Another frame of the stream is seen. Frames that come seldom are a motion, too.
-  #noteFrame(now_ms) {
+  get #pixels() {
+    const {width, height} = this.size;
+    return width * height;
+  }
+
+  // Notes the times of a picture, if it has the size that is asked for. shown_ms: from the server
+  // to the screen and back, of a picture shortly before
+  #measure(height, {trace_ns, encode_ns}, shown_ms, now_ms) {
+    if (height !== this.#alike.height) this.#alike = {height, count: 0};
+    this.#alike.count++;
+    if (height !== this.size.height) return;
+    this.#making.note(this.#pixels, (trace_ns + encode_ns) * kMsPerNs, now_ms);
+    if (this.#line_ms === null || this.#alike.count <= kUnderWay) return;
+    this.#way.note(this.#pixels, Math.max(0, shown_ms - this.#line_ms) / kUnderWay, now_ms);
+  }
+
+  // How much of the time between two pictures goes with their pixels; no more than intervals of
+  // other sizes tell.
+  #pixels_ms(now_ms) {
+    const pixels = this.#pixels;
+    const pace = this.#paces[this.#motion];
+    const most_ms = pace?.count(pixels) ? pace.of(pixels, now_ms) : Infinity;
+    return Math.min(
+        most_ms, Math.max(this.#making.of(pixels, now_ms), this.#way.of(pixels, now_ms)));
+  }
+
+  // Another frame of the stream is seen, `count` after the one before. Frames that come seldom are
+  // a motion, too.
+  #noteFrame(now_ms, count) {
     const interval_ms = now_ms - this.#scene.time_ms;
-    const still_ms = interval_ms > kStillMax_ms ? kStill_ms :
+    const isSeldom = interval_ms / Math.max(1, count) > kStillFrame_ms;
+    const still_ms = isSeldom || interval_ms > kStillMax_ms ? kStill_ms :
       Math.max(kStill_ms, Math.min(kStillMax_ms, kStillFrames * interval_ms));
     this.#scene = {time_ms: now_ms, still_ms};
   }
@@ -139,29 +188,62 @@ export class EyeSize {
     const [first, last] = [shown[0], shown.at(-1)];
     const span_ms = last.time_ms - first.time_ms;
     if (span_ms <= 0 || (shown.length < kLeast && span_ms < kFarApart_ms)) return;
-    const rate_hz = (shown.length - 1) * 1000 / span_ms;
+    const interval_ms = span_ms / (shown.length - 1);
+    const rate_hz = 1000 / interval_ms;
     const causes_hz = (last.cause - first.cause) * 1000 / span_ms;
     const wanted_hz = Math.min(kWanted_hz[this.#motion], kCauseShare * causes_hz);
-    if (rate_hz < wanted_hz) {
-      this.#take(this.#lower(rate_hz, wanted_hz), now_ms);
+    const isSlow = rate_hz < wanted_hz;
+    if (isSlow) this.#notePace(interval_ms, now_ms);
+    const pixels_ms = this.#pixels_ms(now_ms);
+    if (isSlow) {
+      const measured = {interval_ms, pixels_ms: Math.min(interval_ms, pixels_ms), wanted_hz};
+      const step = this.#lower(measured);
+      if (step > this.#step) {
+        this.#take(step, now_ms);
+        return;
+      }
+    }
+    const free = this.#free(interval_ms, pixels_ms);
+    if (free < this.#step) {
+      this.#take(free, now_ms);
       return;
     }
-    if (this.#step === 0 || now_ms < this.#held_until_ms) return;
-    const made_ms = shown.reduce((sum, {ms}) => sum + ms, 0) / shown.length;
+    if (this.#step === 0) return;
     const more = (this.#steps[this.#step - 1] / this.scale) ** 2;
     // With a picture of each pose or frame, none could come sooner.
-    const least_ms = rate_hz < kCauseShare * causes_hz ? 1000 / rate_hz : 0;
-    if (Math.max(made_ms * more, least_ms) * kPromised * wanted_hz <= 1000) {
-      this.#take(this.#step - 1, now_ms);
-    }
+    const least_ms = rate_hz < kCauseShare * causes_hz ? interval_ms : 0;
+    const isPromised = Math.max(pixels_ms * more, least_ms) * kPromised * wanted_hz <= 1000;
+    if (isPromised && now_ms >= this.#held_until_ms) this.#take(this.#step - 1, now_ms);
   }
 
-  // The largest size that promises the rate, if time goes with the px.
-  #lower(rate_hz, wanted_hz) {
+  // The largest size that costs next to nothing.
+  #free(interval_ms, pixels_ms) {
     const steps = this.#steps;
-    const scale = this.scale * Math.sqrt(rate_hz / wanted_hz);
-    const found = steps.findIndex((step) => step <= scale);
-    return found < 0 ? steps.length - 1 : found;
+    let step = this.#step;
+    while (step > 0 &&
+           pixels_ms * ((steps[step - 1] / this.scale) ** 2 - 1) <= kWorthShare * interval_ms) {
+      --step;
+    }
+    return step;
+  }
+
+  // Pictures come too slowly, so far apart.
+  #notePace(interval_ms, now_ms) {
+    const pace = this.#paces[this.#motion] ??= new PixelCost();
+    pace.note(this.#pixels, interval_ms, now_ms);
+  }
+
+  // The largest size that promises the rate. None that saves nothing: then the time goes elsewhere.
+  #lower({interval_ms, pixels_ms, wanted_hz}) {
+    const steps = this.#steps;
+    const promised_ms = (step) =>
+        interval_ms - pixels_ms + pixels_ms * (steps[step] / this.scale) ** 2;
+    let found = Math.min(this.#step, steps.length - 1);
+    while (found + 1 < steps.length && promised_ms(found) * wanted_hz > 1000 &&
+           promised_ms(found + 1) < (1 - kWorthShare) * promised_ms(found)) {
+      ++found;
+    }
+    return found;
   }
 
   #take(step, now_ms) {

@@ -22,10 +22,14 @@ export class ServerClock {
   forget() { this.#replies = []; }
 
   // By the answer that came back the soonest; null before the first.
-  get ahead_ns() {
-    if (this.#replies.length === 0) return null;
-    return this.#replies.reduce((best, reply) => reply.error_ns < best.error_ns ? reply : best)
-        .ahead_ns;
+  get ahead_ns() { return this.#soonest?.ahead_ns ?? null; }
+
+  // How long that took on its way there and back, ms; likewise.
+  get roundTrip_ms() { return this.#soonest ? 2 * this.#soonest.error_ns / 1e6 : null; }
+
+  get #soonest() {
+    return this.#replies.reduce(
+        (best, reply) => best && best.error_ns <= reply.error_ns ? best : reply, null);
   }
 }
 

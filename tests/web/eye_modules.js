@@ -157,6 +157,7 @@ test('a closed connection takes no poses, and the next one gets them', () => {
 test('of several answers the quickest says how far the clock is ahead', () => {
   const clock = new ServerClock();
   assert.equal(clock.ahead_ns, null);
+  assert.equal(clock.roundTrip_ms, null);
   const reply = (client, received, sent) => ({client_time_ns: String(client),
     server_received_ns: String(received), server_sent_ns: String(sent)});
   const ahead = 2n ** 60n;
@@ -164,6 +165,7 @@ test('of several answers the quickest says how far the clock is ahead', () => {
   clock.add(reply(20_000n, ahead + 20_100n, ahead + 20_300n), 20_400n);
   clock.add(reply(30_000n, ahead + 30_100n, ahead + 30_500n), 30_200n);  // impossible
   assert.equal(clock.ahead_ns, ahead);
+  near(clock.roundTrip_ms, 0.0002, 1e-9);
 });
 
 test('parts of motion to picture add up', () => {
