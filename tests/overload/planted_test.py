@@ -169,7 +169,8 @@ class PlantedProcesses(unittest.TestCase):
         header = display_service.AtlasHeader(sequence=1, band_count=2)
         band = display_service.Band(sequence=1, plane=atlas_pb2.ATLAS_PLANE_COLOR, row_count=8,
                                     last_piece=True, data=b"\xff\xd8")
-        for message in ({"layout": atlas_pb2.AtlasLayout()}, {"header": header}, {"band": band},
+        layout = atlas_pb2.AtlasLayout(size={"width": 8, "height": 8})
+        for message in ({"layout": layout}, {"header": header}, {"band": band},
                         {"end": display_service.AtlasEnd(sequence=1)}):
             viewer.take(display_service.StreamAtlasesResponse(**message))
         self.assertIn("before it was whole", viewer.torn[0])

@@ -83,6 +83,37 @@ class Inbox(unittest.TestCase):
                 self.add(messages)
             self.assertEqual(broken.exception.status.name, "DATA_LOSS")
 
+    def test_layouts_of_which_no_view_can_be_cut_are_data_loss(self):
+        for change in ({"size": {"width": 2 ** 32 - 1, "height": 2}}, {"size": {}}, {"columns": 2},
+                       {"columns": 0}, {"padding_top_px": 1}, {"view_count": 5},
+                       {"image_count": 3}):
+            layout, *_ = answers(1)
+            for name in change:
+                layout.layout.ClearField(name)
+            layout.layout.MergeFrom(atlas_pb2.AtlasLayout(**change))
+            with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*the layout has"):
+                self.inbox.add(layout)
+
+    def test_bands_without_rows_or_beyond_the_header_are_data_loss(self):
+        layout, header, band, _ = answers(1)
+        rowless = StreamAtlasesResponse()
+        rowless.CopyFrom(band)
+        rowless.band.row_count = 0
+        for messages in ([layout, header, rowless], [layout, header, band, band]):
+            self.inbox = AtlasInbox()
+            with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*band"):
+                self.add(messages)
+
+    def test_a_grey_jpeg_is_no_colour(self):
+        file = io.BytesIO()
+        Image.new("L", (2, 2)).save(file, "JPEG")
+        messages = answers(1)
+        messages[2].band.encoding = atlas_pb2.BAND_ENCODING_JPEG
+        messages[2].band.data = file.getvalue()
+        self.add(messages)
+        with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*samples of L"):
+            self.inbox.take().color
+
     def test_bytes_that_are_no_picture_of_the_layout_are_data_loss(self):
         file = io.BytesIO()
         Image.new("RGB", (3, 2)).save(file, "JPEG")

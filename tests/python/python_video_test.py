@@ -116,7 +116,10 @@ class Video(unittest.TestCase):
                 ([self.units[1]] * len(self.units), "missing or damaged"),
                 ([self.units[0][:40], *self.units[1:]], "damaged"),
                 ([self.units[0], self.units[2], *self.units[2:]], "damaged"),
-                ([self.units[0], noise, *self.units[2:]], "damaged")):
+                ([self.units[0], noise, *self.units[2:]], "damaged"),
+                ([self.units[0], b"\0\0\1\x67" + self.units[1], *self.units[2:]],
+                 "sequence parameters before"),
+                ([b"\0\0\1\x6e" + self.units[0], *self.units[1:]], r"types \[14\]")):
             with self.assertRaisesRegex(viewloom.ViewloomError, f"DATA_LOSS: .*{words}"):
                 self.atlas(units=units).color  # pylint: disable=expression-not-assigned
 

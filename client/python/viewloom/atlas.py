@@ -53,13 +53,15 @@ def _inflate(band: Band, wanted_bytes: int) -> bytes:
     raise data_loss(f"the band at row {band.first_row} does not unpack: {problem}")
 
 
-def _decode_jpeg(jpeg: bytes, size_px: tuple[int, int]) -> NDArray[Any]:
+def _decode_jpeg(jpeg: bytes, size_px: tuple[int, int], mode: str) -> NDArray[Any]:
     try:
         # Not by Image.open, which takes what is larger than its guess of a picture for an attack.
         image = JpegImageFile(io.BytesIO(jpeg))
         if image.size != size_px:
             raise data_loss(f"the JPEG is {image.size[0]}x{image.size[1]} px, the layout "
                             f"{size_px[0]}x{size_px[1]}")
+        if image.mode != mode:
+            raise data_loss(f"the JPEG has samples of {image.mode}, the plane of {mode}")
         return np.asarray(image)
     except (OSError, SyntaxError) as problem:  # SyntaxError is what Pillow calls a bad header
         raise data_loss(f"the bands are no JPEG: {problem}") from None
@@ -112,7 +114,8 @@ class Atlas:
         bands = self._bands_of(plane, image_index)
         if bands[0].encoding in _JPEGS:
             return _decode_jpeg(b"".join(band.data for band in bands),
-                                (self.layout.size.width, height))
+                                (self.layout.size.width, height),
+                                "RGB" if plane == atlas_pb2.ATLAS_PLANE_COLOR else "L")
         return self._unpacked(bands, plane, self.layout.size.width, height)
 
     def _bands_of(self, plane: atlas_pb2.AtlasPlane, image_index: int) -> list[Band]:
@@ -151,11 +154,13 @@ class Atlas:
 
     def _unpacked(self, bands: list[Band], plane: atlas_pb2.AtlasPlane, width: int,
                   height: int) -> NDArray[Any]:
-        sample_type, channels = _SAMPLES[plane]
+        sample_type, channels = _SAMPLES.get(plane, ("u1", 1))
         row_bytes = width * channels * np.dtype(sample_type).itemsize
         pieces = []
         row = 0
         for band in bands:
+            if row + band.row_count > height:
+                raise data_loss(f"the bands have {row + band.row_count} rows, the layout {height}")
             wanted_bytes = band.row_count * row_bytes
             is_packed = band.encoding == atlas_pb2.BAND_ENCODING_ZSTD
             pieces.append(_inflate(band, wanted_bytes) if is_packed else bytes(band.data))

@@ -10,6 +10,7 @@ import grpc
 from viewloom.atlas import Atlas, Band
 from viewloom.errors import ViewloomError, data_loss
 from viewloom.stack import Chain
+from viewloom.tiles import check_layout
 from viewloom.v1 import display_service_pb2
 from viewloom.v1.atlas_pb2 import PREDICTION_ACROSS_ATLASES, AtlasLayout
 from viewloom.v1.display_service_pb2 import AtlasEnd, AtlasHeader, StreamAtlasesResponse
@@ -50,6 +51,7 @@ class AtlasInbox:
         """Takes a message in. Raises DATA_LOSS when it does not follow those before."""
         kind = response.WhichOneof("message")
         if kind == "layout":
+            check_layout(response.layout)
             self._layout, self._header = response.layout, None
             is_chained = response.layout.encoding.prediction == PREDICTION_ACROSS_ATLASES
             self._chain = (self._chain or Chain()) if is_chained else None
@@ -69,6 +71,9 @@ class AtlasInbox:
         if self._header is None or piece.sequence != self._header.sequence:
             raise data_loss(f"a band of atlas {piece.sequence} came outside it")
         if not self._band_is_open:
+            if piece.row_count == 0 or len(self._bands) == self._header.band_count:
+                raise data_loss(f"atlas {piece.sequence} has a band without rows, or more bands "
+                                f"than the {self._header.band_count} that its header says")
             self._bands.append(Band(piece.image_index, piece.plane, piece.first_row,
                                     piece.row_count, piece.encoding, bytearray()))
         band = self._bands[-1]

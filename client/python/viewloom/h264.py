@@ -24,7 +24,9 @@ _OPTION_TRACE_LEVEL = 9
 _AVC = 0
 _OUT_OF_MEMORY = 0x4000
 # Types of units (ITU-T H.264, table 7-1).
-_IDR_SLICE = 5
+_SLICE, _IDR_SLICE, _SUPPLEMENT, _SEQUENCE, _PICTURE, _DELIMITER = 1, 5, 6, 7, 8, 9
+# Others belong to extensions that no encoder of ours uses.
+_KNOWN = {_SLICE, _IDR_SLICE, _SUPPLEMENT, _SEQUENCE, _PICTURE, _DELIMITER}
 _START_CODE = b"\x00\x00\x01"
 
 
@@ -152,10 +154,15 @@ class Decoder:
 
     def decode(self, access_unit: bytes, width: int, height: int) -> Picture:
         """One whole picture in Annex B format. Raises DATA_LOSS unless it is one of that size."""
-        has_idr = any(unit[0] & 0x1F == _IDR_SLICE
-                      for unit in access_unit.split(_START_CODE)[1:] if unit)
-        if self._needs_idr and not has_idr:
+        types = {unit[0] & 0x1F for unit in access_unit.split(_START_CODE)[1:] if unit}
+        if not types <= _KNOWN:
+            raise data_loss(f"H.264 has units of the types {sorted(types - _KNOWN)}, which are not "
+                            "accepted")
+        if self._needs_idr and _IDR_SLICE not in types:
             raise data_loss("a picture refers to one that is missing or damaged")
+        # Versions of the library before 2.6 then use memory of another size (CVE-2025-27091).
+        if _SEQUENCE in types and _IDR_SLICE not in types:
+            raise data_loss("H.264 has sequence parameters before a picture that refers to others")
         self._needs_idr = True  # until this picture is known to be whole
         planes, info = _Planes(), _BufferInfo()
         state = self._call.decode_frame_no_delay(self._self, access_unit, len(access_unit),

@@ -17,6 +17,8 @@ from viewloom.v1.atlas_pb2 import AtlasLayout, VideoStack
 from viewloom.v1.display_service_pb2 import AtlasHeader
 
 _Sample = TypeVar("_Sample", bound=np.generic)
+# Each takes a few megabytes. Servers make some tens of pictures at most.
+_DECODERS_MAX = 256
 
 
 def _check(layout: AtlasLayout) -> VideoStack:
@@ -128,10 +130,14 @@ class Chain:
         """The pictures of the next atlas. Raises DATA_LOSS, also if one before it is missing."""
         video = _check(layout)
         _check_count(access_units, video)
+        if len(access_units) > _DECODERS_MAX:
+            raise data_loss(f"the layout has chained video of {len(access_units)} pictures; "
+                            f"accepted are up to {_DECODERS_MAX}")
         if header.reference_sequence == 0:
             self.close()
             self._decoders = [h264.Decoder() for _ in access_units]
-        elif header.reference_sequence != self._sequence:
+        elif (header.reference_sequence != self._sequence
+              or len(self._decoders) != len(access_units)):
             raise data_loss(f"atlas {header.sequence} refers to atlas {header.reference_sequence}, "
                             "which was not decoded before it")
         self._sequence = 0  # until it is decoded

@@ -7,9 +7,27 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from viewloom.errors import BadInput
+from viewloom.errors import BadInput, data_loss
 from viewloom.v1 import display_pb2
 from viewloom.v1.atlas_pb2 import AtlasLayout
+
+_SIDE_MAX_PX = 16384  # as display.proto
+
+
+def check_layout(layout: AtlasLayout) -> None:
+    """Raises DATA_LOSS for a layout of which no view can be cut."""
+    size, tile = layout.size, layout.tile_size
+    if not 0 < min(size.width, size.height) <= max(size.width, size.height) <= _SIDE_MAX_PX:
+        raise data_loss(f"the layout has an atlas of {size.width}x{size.height} px; accepted is "
+                        f"1..{_SIDE_MAX_PX} px a side")
+    if (layout.columns * tile.width > size.width
+            or layout.rows * tile.height + layout.padding_top_px > size.height
+            or layout.view_count > layout.columns * layout.rows):
+        raise data_loss("the layout has an atlas without room for its views")
+    images = max(layout.image_count, 1)
+    if size.height % images != 0:
+        raise data_loss(f"the layout has {images} images in {size.height} rows; accepted are "
+                        "images of equal height")
 
 
 def view_window(picture: NDArray[Any], layout: AtlasLayout, view: int) -> NDArray[Any]:
