@@ -60,9 +60,13 @@ uint32_t channelsOf(v1::AtlasPlane plane) {
   return plane == v1::ATLAS_PLANE_DEPTH ? 4 : 1;
 }
 
-// Decodes one image into its rows of the picture.
+// Decodes one image into its rows of the picture. A JPEG has samples of one byte, one or three a
+// px.
 absl::Status decodeJpeg(const std::string& jpeg, uint32_t image, uint32_t image_height,
                         AtlasPicture& picture) {
+  if (picture.channels != 1 && picture.channels != 3) {
+    return absl::DataLossError("a plane came as JPEG that holds neither colour nor grey");
+  }
   const std::unique_ptr<void, int (*)(void*)> handle(tjInitDecompress(), &tjDestroy);
   const auto* bytes = reinterpret_cast<const unsigned char*>(jpeg.data());
   int width = 0, height = 0, subsampling = 0, color_space = 0;

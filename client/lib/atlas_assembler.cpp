@@ -26,8 +26,10 @@ absl::Status checkLayout(const v1::AtlasLayout& layout) {
       uint64_t{layout.rows()} * layout.tile_size().height() + layout.padding_top_px() <= height &&
       layout.view_count() <= uint64_t{layout.columns()} * layout.rows();
   if (!has_room) return absl::DataLossError("the layout has an atlas without room for its views");
-  if (layout.image_count() > height) {
-    return absl::DataLossError("the layout has an atlas of more images than it has rows");
+  const uint32_t images = std::max(layout.image_count(), 1U);
+  if (height % images != 0) {
+    return absl::DataLossError(strCat("the layout has ", images, " images in ", height,
+                                      " rows; accepted are images of equal height"));
   }
   return layout.has_video() ? checkStack(layout) : absl::OkStatus();
 }
@@ -106,6 +108,11 @@ absl::Status AtlasAssembler::addBand(v1::Band band) {
         strCat("atlas ", band.sequence(), " has more than ", bytes_max_, " bytes"));
   }
   if (!band_is_open_) {
+    if (band.row_count() == 0 || open_->bands.size() == open_->header.band_count()) {
+      return absl::DataLossError(strCat("atlas ", band.sequence(), " has a band without rows, or ",
+                                        "more bands than the ", open_->header.band_count(),
+                                        " that its header says"));
+    }
     open_->bands.push_back({.image_index = band.image_index(),
                             .plane = band.plane(),
                             .first_row = band.first_row(),
@@ -123,6 +130,9 @@ absl::Status AtlasAssembler::addBand(v1::Band band) {
     to.bytes = std::move(*band.mutable_data());
   } else {
     to.bytes += band.data();
+  }
+  if (to.bytes.empty()) {
+    return absl::DataLossError(strCat("a band of atlas ", band.sequence(), " has no bytes"));
   }
   band_is_open_ = !band.last_piece();
   return absl::OkStatus();

@@ -10,6 +10,9 @@
 namespace viewloom {
 namespace {
 
+// Each takes a few megabytes. Servers make some tens of pictures at most.
+constexpr uint32_t kDecodersMax = 256;
+
 bool isChained(const Atlas& atlas) {
   return atlas.layout->has_video() &&
          atlas.layout->encoding().prediction() == v1::PREDICTION_ACROSS_ATLASES &&
@@ -39,10 +42,18 @@ absl::StatusOr<AtlasPicture> ColorDecoder::decode(const Atlas& atlas) {
 
 absl::Status ColorDecoder::prepare(const Atlas& atlas) {
   const uint64_t reference = atlas.header.reference_sequence();
-  if (reference != 0) return reference == sequence_ ? absl::OkStatus() : refusedReference(atlas);
+  const uint32_t count = atlas.layout->video().picture_count();
+  if (reference != 0) {
+    const bool is_known = reference == sequence_ && count == decoders_.size();
+    return is_known ? absl::OkStatus() : refusedReference(atlas);
+  }
+  if (count > kDecodersMax) {
+    return absl::ResourceExhaustedError(strCat("the layout has chained video of ", count,
+                                               " pictures; accepted are up to ", kDecodersMax));
+  }
   // Pictures of another size, too, come with new decoders.
   decoders_.clear();
-  for (uint32_t i = 0; i < atlas.layout->video().picture_count(); ++i) {
+  for (uint32_t i = 0; i < count; ++i) {
     auto decoder = OpenH264Decoder::make();
     VIEWLOOM_RETURN_IF_ERROR(decoder.status());
     decoders_.push_back(*std::move(decoder));

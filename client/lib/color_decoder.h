@@ -24,7 +24,8 @@ class ColorDecoder {
 
   // RGB, as decodePlane(atlas, COLOR). Takes the atlases of one call in the order in which they
   // came, each of them if they are chained. FAILED_PRECONDITION if the atlas refers to one that was
-  // not decoded before it. After an error, atlases are refused until one comes that needs no other.
+  // not decoded before it. RESOURCE_EXHAUSTED for chained video of more than 256 pictures. After an
+  // error, atlases are refused until one comes that needs no other.
   absl::StatusOr<AtlasPicture> decode(const Atlas& atlas);
 
  private:

@@ -97,7 +97,6 @@ absl::StatusOr<std::unique_ptr<AtlasVideo>> AtlasVideo::create(std::filesystem::
 }
 
 absl::Status AtlasVideo::begin(const v1::AtlasLayout& layout) {
-  VIEWLOOM_RETURN_IF_ERROR(checkPlayable(layout));
   tiles_ = tilesOf(layout);
   const absl::StatusOr<VideoTiles> fitted = fitVideoTiles(tiles_, encoders_->limit());
   VIEWLOOM_RETURN_IF_ERROR(fitted.status());
@@ -119,7 +118,9 @@ absl::Status AtlasVideo::begin(const v1::AtlasLayout& layout) {
 }
 
 absl::Status AtlasVideo::add(const Atlas& atlas, int64_t arrived_ns) {
-  if (!file_) VIEWLOOM_RETURN_IF_ERROR(begin(*atlas.layout));
+  if (layout_ != atlas.layout) VIEWLOOM_RETURN_IF_ERROR(checkPlayable(*atlas.layout));
+  layout_ = atlas.layout;
+  if (!file_) VIEWLOOM_RETURN_IF_ERROR(begin(*layout_));
   if (tilesOf(*atlas.layout) != tiles_) {
     return absl::FailedPreconditionError(
         strCat(written_path_.string(), ": the atlases have changed from ", tiles_.atlas_px.width,

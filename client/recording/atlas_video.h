@@ -34,7 +34,8 @@ class AtlasVideo {
   // The next atlas, which came at that time of a monotonic clock. Takes as long as coding does.
   // FAILED_PRECONDITION if the atlas is for no player, such as that of a panel or one of another
   // size than the first, and if the disk takes no more. RESOURCE_EXHAUSTED if memory is missing, or
-  // for more views than a video holds. DATA_LOSS for an atlas that does not decode.
+  // for more views than a video holds. DATA_LOSS for an atlas that does not decode,
+  // INVALID_ARGUMENT for one that does not hold its views.
   absl::Status add(const Atlas& atlas, int64_t arrived_ns);
   // The end of the last picture. Errors as MovieFile::complete. Call once.
   absl::Status complete(int64_t now_ns);
@@ -51,7 +52,8 @@ class AtlasVideo {
   const std::filesystem::path path_;  // as it was asked for
   const std::string title_;
   const VideoEncoderChoicePtr encoders_;
-  std::filesystem::path written_path_;  // with the layout in its name
+  std::filesystem::path written_path_;             // with the layout in its name
+  std::shared_ptr<const v1::AtlasLayout> layout_;  // the newest that was looked at
   AtlasTiles tiles_;
   VideoTiles video_tiles_;
   ColorDecoder decoder_;

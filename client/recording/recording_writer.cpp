@@ -43,7 +43,12 @@ absl::Status RecordingWriter::add(int64_t time_ns, const google::protobuf::Messa
 absl::Status RecordingWriter::add(int64_t time_ns, std::string_view head,
                                   std::span<const uint8_t> data) {
   const size_t byte_count = head.size() + data.size();
-  VIEWLOOM_CHECK(byte_count > 0 && byte_count <= kRecordBytesMax);
+  VIEWLOOM_CHECK(byte_count > 0);
+  if (byte_count > kRecordBytesMax) {
+    return absl::InvalidArgumentError(strCat("a message of ", byte_count,
+                                             " bytes cannot be recorded; accepted are up to ",
+                                             kRecordBytesMax));
+  }
   VIEWLOOM_CHECK(time_ns >= last_time_ns_);
   absl::Status written = out_->write(recordHead(time_ns, byte_count));
   if (written.ok()) written = out_->write(head);

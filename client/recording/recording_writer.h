@@ -23,7 +23,8 @@ class RecordingWriter {
   static absl::StatusOr<std::unique_ptr<RecordingWriter>> create(std::filesystem::path path,
                                                                  RecordingKind kind);
   // Expects a message that is not empty, and times that do not go back. FAILED_PRECONDITION when
-  // the disk takes no more.
+  // the disk takes no more. INVALID_ARGUMENT for more than kRecordBytesMax: foreign numbers may
+  // take more bytes here than on the wire.
   absl::Status add(int64_t time_ns, const google::protobuf::MessageLite& message);
   // The same of a serialised message: its beginning, and the bytes that follow.
   absl::Status add(int64_t time_ns, std::string_view head, std::span<const uint8_t> data);

@@ -5,6 +5,7 @@
 #include "fuzz/script.h"
 #include "fuzz/targets.h"
 #include "lib/atlas_assembler.h"
+#include "lib/color_decoder.h"
 
 namespace viewloom {
 namespace {
@@ -13,10 +14,11 @@ constexpr uint64_t kAtlasBytesMax = 1 << 20;
 // Larger layouts are lawful, and take long to decode.
 constexpr uint64_t kDecodedPxMax = 1 << 20;
 
-void decodeAll(const Atlas& atlas) {
+void decodeAll(const Atlas& atlas, ColorDecoder& decoder) {
   const v1::AtlasLayout& layout = *atlas.layout;
   VIEWLOOM_CHECK(atlas.byteCount() <= kAtlasBytesMax);
   if (uint64_t{layout.size().width()} * layout.size().height() > kDecodedPxMax) return;
+  (void)decoder.decode(atlas);
   for (int plane = 0; plane <= v1::AtlasPlane_MAX; ++plane) {
     const absl::StatusOr<AtlasPicture> picture =
         decodePlane(atlas, static_cast<v1::AtlasPlane>(plane));
@@ -32,6 +34,7 @@ void decodeAll(const Atlas& atlas) {
 bool fuzzAtlas(FuzzBytes bytes) {
   Script script(bytes);
   AtlasAssembler assembler(kAtlasBytesMax);
+  ColorDecoder decoder;
   bool is_whole = false;
   while (!script.atEnd()) {
     const size_t message_bytes = script.take(2);
@@ -41,7 +44,7 @@ bool fuzzAtlas(FuzzBytes bytes) {
     const absl::StatusOr<std::optional<Atlas>> atlas = assembler.add(std::move(message));
     if (!atlas.ok()) return is_whole;
     if (!atlas->has_value()) continue;
-    decodeAll(**atlas);
+    decodeAll(**atlas, decoder);
     is_whole = true;
   }
   return is_whole;

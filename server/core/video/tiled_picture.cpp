@@ -25,6 +25,20 @@ std::string text(SizePx size_px) {
   return strCat(size_px.width, "x", size_px.height, " px");
 }
 
+// Sides in 64 bits: the products of foreign ones fit.
+absl::Status checkTiles(const AtlasTiles& atlas) {
+  const uint64_t width_px = uint64_t{atlas.columns} * atlas.tile_px.width;
+  const uint64_t height_px =
+      uint64_t{atlas.rows} * atlas.tile_px.height + uint64_t{atlas.padding_top_px};
+  const bool is_empty = atlas.columns == 0 || atlas.rows == 0 || atlas.tile_px.area() == 0;
+  if (!is_empty && width_px <= atlas.atlas_px.width && height_px <= atlas.atlas_px.height) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(strCat(
+      "an atlas of ", text(atlas.atlas_px), " does not hold ", atlas.columns, "x", atlas.rows,
+      " views of ", text(atlas.tile_px), " below ", atlas.padding_top_px, " px of padding"));
+}
+
 // Two rows of colours as samples of 4:2:0, through the transform of JPEG files.
 struct RowPair {
   const uint8_t* upper;
@@ -70,6 +84,7 @@ void copyRows(const std::vector<uint8_t>& from, SizePx from_px, uint8_t* to, siz
 }  // namespace
 
 absl::StatusOr<VideoTiles> fitVideoTiles(const AtlasTiles& atlas, const PictureLimit& limit) {
+  VIEWLOOM_RETURN_IF_ERROR(checkTiles(atlas));
   const double aspect = double(atlas.tile_px.height) / atlas.tile_px.width;
   for (uint32_t width = evenSide(atlas.tile_px.width); width >= 2; width -= 2) {
     const bool is_full = width + 1 >= atlas.tile_px.width;

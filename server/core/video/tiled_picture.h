@@ -17,8 +17,7 @@
 
 namespace viewloom {
 
-// Equal tiles of an atlas. The first one begins at the left, `padding_top_px` below the top. All
-// lie inside of the atlas.
+// Equal tiles of an atlas. The first one begins at the left, `padding_top_px` below the top.
 struct AtlasTiles {
   SizePx atlas_px;
   SizePx tile_px;
@@ -37,8 +36,8 @@ struct VideoTiles {
   bool operator==(const VideoTiles&) const = default;
 };
 
-// The largest tiles whose picture an encoder takes. RESOURCE_EXHAUSTED if there are too many of
-// them.
+// The largest tiles whose picture an encoder takes. INVALID_ARGUMENT unless there are tiles, and
+// all lie inside of the atlas. RESOURCE_EXHAUSTED if there are too many of them.
 absl::StatusOr<VideoTiles> fitVideoTiles(const AtlasTiles& atlas, const PictureLimit& limit = {});
 
 // "the atlas of 3360x3360 px is scaled to 3072x3072 px, ...". Empty where tiles keep their size.

@@ -179,7 +179,7 @@ TEST_F(AtlasAssemblerTest, refusesLayoutsOfWhichNoViewCanBeCut) {
            [](auto& l) { l.mutable_size()->set_height(4'000'000'000); },
            [](auto& l) { l.mutable_tile_size()->set_width(3); },
            [](auto& l) { l.set_padding_top_px(1); }, [](auto& l) { l.set_columns(0); },
-           [](auto& l) { l.set_image_count(5); }}) {
+           [](auto& l) { l.set_image_count(5); }, [](auto& l) { l.set_image_count(3); }}) {
     EXPECT_EQ(codeWith(spoil), absl::StatusCode::kDataLoss);
   }
 }
@@ -187,6 +187,16 @@ TEST_F(AtlasAssemblerTest, refusesLayoutsOfWhichNoViewCanBeCut) {
 TEST_F(AtlasAssemblerTest, refusesAPieceOfAnotherBandInside) {
   add({layoutMessage(), headerMessage(1, 2), bandMessage(1, 0, "ab", 0, false)});
   EXPECT_EQ(codeOf(bandMessage(1, 2, "cd", 2, true)), absl::StatusCode::kDataLoss);
+}
+
+TEST_F(AtlasAssemblerTest, refusesBandsThatHoldNothing) {
+  Message rowless = bandMessage(1, 0, "x");
+  rowless.mutable_band()->set_row_count(0);
+  add({layoutMessage(), headerMessage(1, 2)});
+  EXPECT_EQ(codeOf(rowless), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(codeOf(bandMessage(1, 0, "")), absl::StatusCode::kDataLoss);
+  add({headerMessage(2, 1), bandMessage(2, 0, "x")});
+  EXPECT_EQ(codeOf(bandMessage(2, 2, "x")), absl::StatusCode::kDataLoss) << "not in the header";
 }
 
 TEST_F(AtlasAssemblerTest, boundsTheMemoryOfAnAtlas) {

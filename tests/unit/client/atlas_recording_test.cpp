@@ -169,6 +169,17 @@ TEST_F(AtlasRecordingTest, refusesLayoutsThatDoNotAddUp) {
   }
 }
 
+TEST_F(AtlasRecordingTest, refusesMessagesThatNoReaderTakes) {
+  Message large = bandMessage(1);
+  large.mutable_band()->set_data(std::string(4 << 20, 'x'));
+  const auto recorder = AtlasRecorder::create(folder_.path() / "large.vlr", clock_);
+  ASSERT_TRUE(recorder.ok()) << recorder.status();
+  ASSERT_TRUE((*recorder)->add(layoutMessage()).ok());
+  const absl::Status refused = (*recorder)->add(large);
+  EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("accepted are up to 4194304"));
+}
+
 TEST_F(AtlasRecordingTest, refusesMessagesOutOfOrder) {
   const auto of = [&](const std::vector<Message>& messages) {
     return std::string(readAll(recordMessages(messages)).status().message());

@@ -116,6 +116,14 @@ TEST(Atlas, refusesBandsThatDoNotFillTheirRows) {
   EXPECT_EQ(decodePlane(atlas, v1::ATLAS_PLANE_COLOR).status().code(), absl::StatusCode::kDataLoss);
 }
 
+TEST(Atlas, refusesJpegWhereSamplesHaveTwoOrFourBytes) {
+  for (const auto plane : {v1::ATLAS_PLANE_DEPTH, v1::ATLAS_PLANE_DEPTH_CODES}) {
+    Atlas atlas = emptyAtlas();
+    atlas.bands.push_back(band(plane, v1::BAND_ENCODING_JPEG, 0, 14, greyJpeg(9)));
+    EXPECT_EQ(decodePlane(atlas, plane).status().code(), absl::StatusCode::kDataLoss);
+  }
+}
+
 // Every sample says its own place: 16 * y + x.
 AtlasPicture placeMarks() {
   AtlasPicture picture{.width_px = 11, .height_px = 14, .channels = 1, .samples = {}};

@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <functional>
+#include <initializer_list>
 #include <iterator>
 
 #include "recording/video_recorder.h"
@@ -134,6 +136,35 @@ TEST_F(AtlasVideoTest, refusesDisplaysThatAreForNoPlayer) {
     EXPECT_FALSE(video->complete(0).ok());
     EXPECT_EQ(fileCount(), 0U);
   }
+}
+
+TEST_F(AtlasVideoTest, refusesLayoutsThatDoNotHoldTheirViews) {
+  const auto refusal = [this](const std::function<void(v1::AtlasLayout&)>& spoil) {
+    v1::AtlasLayout layout = layoutOf();
+    spoil(layout);
+    return create()->add(atlasOf(0, 0, layout), 0);
+  };
+  for (const auto& spoil : std::initializer_list<std::function<void(v1::AtlasLayout&)>>{
+           [](auto& l) { l.mutable_tile_size()->set_width(kSide_px); },
+           [](auto& l) { l.set_rows(2); }, [](auto& l) { l.set_padding_top_px(1); },
+           [](auto& l) { l.mutable_tile_size()->set_height(0); },
+           [](auto& l) { l.set_columns(0x8000'0001); },
+           [](auto& l) { l.set_padding_top_px(0xffff'ffff); }}) {
+    const absl::Status refused = refusal(spoil);
+    EXPECT_EQ(refused.code(), absl::StatusCode::kInvalidArgument) << refused;
+    EXPECT_THAT(std::string(refused.message()), HasSubstr("an atlas of 64x64 px does not hold"));
+  }
+  EXPECT_EQ(fileCount(), 0U);
+}
+
+TEST_F(AtlasVideoTest, refusesALaterLayoutThatIsForNoPlayer) {
+  const auto video = create();
+  ASSERT_TRUE(video->add(atlasOf(0, 0), 0).ok());
+  v1::AtlasLayout images = layoutOf();
+  images.set_image_count(2);
+  const absl::Status refused = video->add(atlasOf(0, 40 * kMs, images), 40 * kMs);
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("several images"));
+  ASSERT_TRUE(video->complete(80 * kMs).ok()) << "what came before is kept";
 }
 
 TEST_F(AtlasVideoTest, endsWhereTheSizeChanges) {
