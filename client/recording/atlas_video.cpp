@@ -135,8 +135,17 @@ absl::Status AtlasVideo::add(const Atlas& atlas, int64_t arrived_ns) {
       header.shown_time_ns() != 0 ? header.shown_time_ns() : header.capture_time_ns();
   const int64_t time_ns = clock_.next(shown_ns, arrived_ns);
   const auto coded = coder_->code({.samples = picture->samples.data()}, time_ns);
-  VIEWLOOM_RETURN_IF_ERROR(coded.status());
-  return file_->add(*coded, time_ns);
+  if (!coded.ok()) return ended(coded.status());
+  const absl::Status added = file_->add(*coded, time_ns);
+  return absl::IsInvalidArgument(added) ? ended(added) : added;
+}
+
+absl::Status AtlasVideo::ended(const absl::Status& failure) const {
+  const std::string_view rest = pictureCount() > 0
+                                    ? "; the video ends here and keeps what came before"
+                                    : "; no video is written";
+  return absl::Status(failure.code(),
+                      strCat(written_path_.string(), ": ", failure.message(), rest));
 }
 
 absl::Status AtlasVideo::complete(int64_t now_ns) {

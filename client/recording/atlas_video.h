@@ -35,7 +35,8 @@ class AtlasVideo {
   // FAILED_PRECONDITION if the atlas is for no player, such as that of a panel or one of another
   // size than the first, and if the disk takes no more. RESOURCE_EXHAUSTED if memory is missing, or
   // for more views than a video holds. DATA_LOSS for an atlas that does not decode,
-  // INVALID_ARGUMENT for one that does not hold its views.
+  // INVALID_ARGUMENT for one that does not hold its views. INTERNAL if the encoder fails, and a new
+  // one too (MovieCoder). complete() keeps what came before an error.
   absl::Status add(const Atlas& atlas, int64_t arrived_ns);
   // The end of the last picture. Errors as MovieFile::complete. Call once.
   absl::Status complete(int64_t now_ns);
@@ -48,6 +49,8 @@ class AtlasVideo {
  private:
   AtlasVideo(std::filesystem::path path, std::string title, VideoEncoderChoicePtr encoders);
   absl::Status begin(const v1::AtlasLayout& layout);
+  // Error with which the video ends.
+  absl::Status ended(const absl::Status& failure) const;
 
   const std::filesystem::path path_;  // as it was asked for
   const std::string title_;

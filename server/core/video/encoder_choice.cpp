@@ -68,24 +68,43 @@ bool VideoEncoderChoice::isOpenH264() const {
   return kind_.name == kOpenH264Name;
 }
 
+absl::StatusOr<VideoEncoderChoice::Begun> VideoEncoderChoice::begin(
+    const VideoFormat& format) const {
+  const auto begun = [&](const VideoEncoderKind& kind) -> absl::StatusOr<Begun> {
+    auto encoder = kind.make(format);
+    VIEWLOOM_RETURN_IF_ERROR(encoder.status());
+    return Begun{.encoder = *std::move(encoder), .kind = kind};
+  };
+  if (isOpenH264() || failures_->has_failed) return begun(openh264_);
+  absl::StatusOr<Begun> first = begun(kind_);
+  if (first.ok() || absl::IsInvalidArgument(first.status())) return first;
+  if (!failures_->has_not_begun.exchange(true)) {
+    log(LogLevel::kWarning, "video: ", kind_.name, " cannot encode ", format.size_px.width, "x",
+        format.size_px.height, " px: ", first.status().message(), "; OpenH264 does it instead");
+  }
+  return begun(openh264_);
+}
+
 absl::StatusOr<std::unique_ptr<VideoEncoder>> VideoEncoderChoice::make(
     const VideoFormat& format) const {
-  if (isOpenH264() || failures_->has_failed) return openh264_.make(format);
-  auto first = kind_.make(format);
-  if (absl::IsInvalidArgument(first.status())) return first;
-  if (!first.ok()) {
-    if (!failures_->has_not_begun.exchange(true)) {
-      log(LogLevel::kWarning, "video: ", kind_.name, " cannot encode ", format.size_px.width, "x",
-          format.size_px.height, " px: ", first.status().message(), "; OpenH264 does it instead");
-    }
-    return openh264_.make(format);
-  }
-  const auto note = [failures = failures_, name = kind_.name](const absl::Status& failure) {
-    if (failures->has_failed.exchange(true)) return;
-    log(LogLevel::kWarning, "video: ", name, " has failed: ", failure.message(),
-        "; OpenH264 encodes from now on, until the program is started again");
+  absl::StatusOr<Begun> begun = begin(format);
+  VIEWLOOM_RETURN_IF_ERROR(begun.status());
+  if (begun->kind.name == kOpenH264Name) return std::move(begun->encoder);
+  const auto on_failure = [failures = failures_, name = kind_.name](const absl::Status& failure) {
+    note(*failures, name, failure);
   };
-  return std::make_unique<FallbackEncoder>(*std::move(first), openh264_.make, note);
+  return std::make_unique<FallbackEncoder>(std::move(begun->encoder), openh264_.make, on_failure);
+}
+
+void VideoEncoderChoice::note(Failures& failures, const std::string& name,
+                              const absl::Status& failure) {
+  if (failures.has_failed.exchange(true)) return;
+  log(LogLevel::kWarning, "video: ", name, " has failed: ", failure.message(),
+      "; OpenH264 encodes from now on, until the program is started again");
+}
+
+void VideoEncoderChoice::noteFailure(const absl::Status& failure) const {
+  if (!isOpenH264()) note(*failures_, kind_.name, failure);
 }
 
 std::string VideoEncoderChoice::text() const {

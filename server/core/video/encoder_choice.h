@@ -33,6 +33,17 @@ class VideoEncoderChoice {
 
   // Errors as OpenH264Encoder::make. Pictures beyond OpenH264's limit have no replacement.
   absl::StatusOr<std::unique_ptr<VideoEncoder>> make(const VideoFormat& format) const;
+
+  // An encoder that nothing replaces when it fails, and its kind.
+  struct Begun {
+    std::unique_ptr<VideoEncoder> encoder;
+    VideoEncoderKind kind;
+  };
+  // The same for a stream whose parameter sets have to stay.
+  absl::StatusOr<Begun> begin(const VideoFormat& format) const;
+  // Such an encoder of the chosen kind has failed for good: OpenH264 takes its place elsewhere.
+  void noteFailure(const absl::Status& failure) const;
+
   const PictureLimit& limit() const { return kind_.limit; }
   // "h264_nvenc (libavcodec 59.37.100)".
   std::string text() const;
@@ -45,6 +56,7 @@ class VideoEncoderChoice {
   struct Failures;
 
   bool isOpenH264() const;
+  static void note(Failures& failures, const std::string& name, const absl::Status& failure);
 
   const VideoEncoderKind kind_;
   const VideoEncoderKind openh264_;

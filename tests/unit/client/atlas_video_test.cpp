@@ -12,6 +12,7 @@
 #include "recording/video_recorder.h"
 #include "unit/client/test_files.h"
 #include "unit/mp4/box_reader.h"
+#include "unit/video/planned_encoder.h"
 #include "video/openh264_decoder.h"
 
 namespace viewloom::test::atlas_video_test {
@@ -176,6 +177,35 @@ TEST_F(AtlasVideoTest, endsWhereTheSizeChanges) {
   EXPECT_THAT(std::string(refused.message()), HasSubstr("the atlases have changed"));
   ASSERT_TRUE(video->complete(80 * kMs).ok()) << "what came before is kept";
   EXPECT_EQ(samplesOf(bytesOf(path("clip_qs2x1a1.mp4"))).size(), 1U);
+}
+
+TEST_F(AtlasVideoTest, keepsWhatCameBeforeItsEncoderFailed) {
+  // Each encoder fails at its fourth picture. The second one does so too soon.
+  const auto encoders = std::make_shared<const VideoEncoderChoice>(
+      plannedKind("planned", failingFrom(3)), std::vector<EncoderProbe>());
+  const auto video = *AtlasVideo::create(path("clip.mp4"), "demo", encoders);
+  for (int i = 0; i < 6; ++i) {
+    const absl::Status added = video->add(atlasOf(uint8_t(20 * i), i * 40 * kMs), i * 40 * kMs);
+    ASSERT_TRUE(added.ok()) << i << ": " << added;
+  }
+  const absl::Status failed = video->add(atlasOf(200, 240 * kMs), 240 * kMs);
+  EXPECT_EQ(failed.code(), absl::StatusCode::kInternal);
+  EXPECT_THAT(std::string(failed.message()),
+              HasSubstr("clip_qs2x1a1.mp4: the video encoder planned has failed twice: the device "
+                        "is lost; the video ends here and keeps what came before"));
+  ASSERT_TRUE(video->complete(280 * kMs).ok());
+  const std::vector<uint8_t> bytes = bytesOf(path("clip_qs2x1a1.mp4"));
+  const std::vector<ReadSample> samples = samplesOf(bytes);
+  ASSERT_EQ(samples.size(), 6U);
+  const auto decoder = *OpenH264Decoder::make();
+  for (size_t i = 0; i < samples.size(); ++i) {
+    EXPECT_EQ(samples[i].is_sync, i % 3 == 0);
+    const auto sample = std::span(bytes).subspan(samples[i].offset, samples[i].size);
+    const auto picture = decoder->decode(
+        annexB(sample, samples[i].is_sync ? setsOf(bytes) : std::vector<Bytes>()), {64, 64});
+    ASSERT_TRUE(picture.ok()) << picture.status();
+    EXPECT_NEAR(picture->y[5], 20 * int(i), 2);
+  }
 }
 
 TEST_F(AtlasVideoTest, recordsTheMessagesOfASubscriber) {
