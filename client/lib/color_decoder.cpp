@@ -44,6 +44,7 @@ absl::Status ColorDecoder::prepare(const Atlas& atlas) {
   const uint64_t reference = atlas.header.reference_sequence();
   const uint32_t count = atlas.layout->video().picture_count();
   if (reference != 0) {
+    // A stack of more pictures, or of fewer, has nothing that it could refer to.
     const bool is_known = reference == sequence_ && count == decoders_.size();
     return is_known ? absl::OkStatus() : refusedReference(atlas);
   }

@@ -13,6 +13,7 @@ import viewloom
 from viewloom import h264
 from viewloom.atlas import Band
 from viewloom.atlas_inbox import AtlasInbox
+from viewloom.stack import Chain
 from viewloom.v1 import atlas_pb2, display_pb2
 from viewloom.v1.display_service_pb2 import AtlasHeader, StreamAtlasesResponse
 
@@ -172,6 +173,17 @@ class Video(unittest.TestCase):
         add(0)
         with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*refers to atlas 2"):
             add(2)
+
+    def test_a_chain_of_fewer_pictures_goes_no_further(self):
+        layout = layout_of(self.views, self.video)
+        layout.video.picture_count = 1
+        layout.view_count = layout.video.columns * layout.video.rows
+        chain = Chain()
+        self.addCleanup(chain.close)
+        chain.decode(self.units[:1], AtlasHeader(sequence=1), layout)
+        with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*refers to atlas 1"):
+            chain.decode(self.units, AtlasHeader(sequence=2, reference_sequence=1),
+                         layout_of(self.views, self.video))
 
     def test_chained_video_needs_video(self):
         with self.assertRaisesRegex(viewloom.BadInput, "chained"):

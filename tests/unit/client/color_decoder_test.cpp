@@ -156,6 +156,22 @@ TEST(ColorDecoder, refusesWhatFollowsADamagedAtlas) {
   expectGreys(decoder.decode(coder.code(4, 0, 120)), 120);
 }
 
+TEST(ColorDecoder, refusesAStackOfMorePicturesThanTheAtlasBeforeHad) {
+  Coder coder;
+  ColorDecoder decoder;
+  const Atlas larger = coder.code(2, 1, 60);
+  Atlas first = coder.code(1, 0, 40);
+  v1::AtlasLayout layout = *first.layout;
+  layout.set_view_count(1);
+  layout.set_columns(1);
+  layout.mutable_size()->set_width(kView_px.width);
+  layout.mutable_video()->set_picture_count(1);
+  first.layout = std::make_shared<const v1::AtlasLayout>(layout);
+  first.bands.pop_back();
+  ASSERT_TRUE(decoder.decode(first).ok());
+  EXPECT_EQ(decoder.decode(larger).status().code(), absl::StatusCode::kFailedPrecondition);
+}
+
 TEST(ColorDecoder, isNeededOnlyForAtlasesThatReferToOthers) {
   Coder coder;
   expectGreys(decodePlane(coder.code(1, 0, 40), v1::ATLAS_PLANE_COLOR), 40);
