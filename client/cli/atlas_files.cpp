@@ -11,6 +11,7 @@
 #include <cstring>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -50,6 +51,9 @@ absl::StatusOr<std::string> encodeJpeg(const AtlasPicture& picture) {
 
 // Saves a file whose name ends so. ALREADY_EXISTS when there is one.
 using Save = std::function<absl::Status(const std::string& ending, std::string_view bytes)>;
+
+// Colour of the atlas, decoded when it is asked for first.
+using GetColor = std::function<const absl::StatusOr<AtlasPicture>&()>;
 
 absl::Status writePicture(const AtlasPicture& picture, bool as_png, const std::string& ending,
                           const Save& save) {
@@ -103,7 +107,7 @@ absl::Status writeDepthCodes(const Atlas& atlas, const AtlasFileOptions& options
   return absl::OkStatus();
 }
 
-absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options, ColorDecoder& decoder,
+absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options, const GetColor& color,
                         const Save& save) {
   if (atlas.layout->depth_codes().bits() == 16) return writeDepthCodes(atlas, options, save);
   const char* const kind = atlas.layout->has_depth_codes() ? "_rgbd" : "";
@@ -114,7 +118,7 @@ absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options, Col
     if (!jpeg.ok()) return jpeg.status();
     return save(whole + ".jpg", *jpeg);
   }
-  const absl::StatusOr<AtlasPicture> picture = decoder.decode(atlas);
+  const absl::StatusOr<AtlasPicture>& picture = color();
   if (!picture.ok()) return picture.status();
   // No usual JPEG keeps neighbouring subpixels of a panel apart, which different eyes see. Panels
   // are the displays with a cone whose picture is one view, not a quilt.
@@ -128,9 +132,9 @@ absl::Status writeColor(const Atlas& atlas, const AtlasFileOptions& options, Col
   return absl::OkStatus();
 }
 
-absl::Status writeAtlas(const Atlas& atlas, const AtlasFileOptions& options, ColorDecoder& decoder,
+absl::Status writeAtlas(const Atlas& atlas, const AtlasFileOptions& options, const GetColor& color,
                         const Save& save) {
-  VIEWLOOM_RETURN_IF_ERROR(writeColor(atlas, options, decoder, save));
+  VIEWLOOM_RETURN_IF_ERROR(writeColor(atlas, options, color, save));
   if (!atlas.layout->encoding().with_mask()) return absl::OkStatus();
   const absl::StatusOr<AtlasPicture> mask = decodePlane(atlas, v1::ATLAS_PLANE_MASK);
   if (!mask.ok()) return mask.status();
@@ -183,6 +187,12 @@ absl::StatusOr<AtlasFiles::Written> AtlasFiles::write(const Atlas& atlas) {
   // A server that was started again counts from the beginning.
   if (atlas.header.sequence() <= last_sequence_) ++run_;
   last_sequence_ = atlas.header.sequence();
+  // Once, also where names are tried again: a decoder of chained video has gone on by then.
+  std::optional<absl::StatusOr<AtlasPicture>> decoded;
+  const GetColor color = [&]() -> const absl::StatusOr<AtlasPicture>& {
+    if (!decoded) decoded.emplace(decoder_.decode(atlas));
+    return *decoded;
+  };
   for (;; ++run_) {
     Written written;
     const auto save = [&](const std::string& ending, std::string_view bytes) -> absl::Status {
@@ -193,7 +203,7 @@ absl::StatusOr<AtlasFiles::Written> AtlasFiles::write(const Atlas& atlas) {
       if (written.count++ == 0) written.first = path;
       return absl::OkStatus();
     };
-    const absl::Status status = writeAtlas(atlas, options_, decoder_, save);
+    const absl::Status status = writeAtlas(atlas, options_, color, save);
     if (status.ok()) return written;
     // Somebody else writes the same names into the folder.
     if (!absl::IsAlreadyExists(status)) return status;

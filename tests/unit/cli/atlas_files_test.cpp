@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <memory>
 #include <set>
 #include <string>
 
+#include "unit/client/chained_coder.h"
 #include "unit/client/test_files.h"
 
 namespace viewloom::cli::atlas_files_test {
@@ -86,6 +88,17 @@ TEST_F(AtlasFilesTest, leavesFilesOfAnotherWriterAlone) {
   ASSERT_TRUE(first.write(atlasOf(1)).ok());
   ASSERT_TRUE(second.write(atlasOf(1)).ok());
   EXPECT_EQ(fileNames().size(), 2U);
+}
+
+TEST_F(AtlasFilesTest, followsChainedVideoWhereANameIsTaken) {
+  test::ChainedCoder coder;
+  AtlasFiles writer = this->writer();
+  ASSERT_TRUE(writer.write(coder.code(1, 0, 40)).ok());
+  std::ofstream(folder_.path() / "demo_000000_000002.png") << "another writer's";
+  const auto written = writer.write(coder.code(2, 1, 60));
+  ASSERT_TRUE(written.ok()) << written.status();
+  EXPECT_EQ(written->first.filename(), "demo_r2_000000_000002.png");
+  EXPECT_TRUE(writer.write(coder.code(3, 2, 90)).ok());
 }
 
 TEST_F(AtlasFilesTest, writesNothingUnderANameThatLeadsElsewhere) {
