@@ -47,6 +47,7 @@ class DisplayCoding {
 
  private:
   std::optional<double> medianSpeed(int64_t now_ns) const;
+  // Half of the readers, or more, have all that they were written.
   bool isIdle() const;
 
   const QualityRange range_;

@@ -170,6 +170,15 @@ TEST_F(DisplayCodingTest, wantsTheFinestOnceFramesStand) {
   EXPECT_GE(qp_, 32u) << "frames move again";
 }
 
+TEST_F(DisplayCodingTest, wantsTheFinestAlsoWhereOneReaderOfTwoTakesNothing) {
+  Reader reader(coding_, 1, 20);
+  runUntil(5 * kSecond, {&reader});
+  coding_.join(2);
+  coding_.beginWrite(2, 1'000'000, now_ns_);
+  runUntil(7 * kSecond, {&reader}, false);
+  EXPECT_TRUE(coding_.wantsFiner(now_ns_));
+}
+
 TEST_F(DisplayCodingTest, leavesSlowFramesAsTheyAre) {
   Reader reader(coding_, 1, 0.2);
   for (int i = 0; i < 5; ++i) {
