@@ -15,7 +15,7 @@ namespace viewloom {
 namespace {
 
 std::shared_ptr<DisplayCoding> codingOf(const EncodingSpec& encoding) {
-  return adaptsQuality(encoding) ? std::make_shared<DisplayCoding>(encoding) : nullptr;
+  return adaptsToLines(encoding) ? std::make_shared<DisplayCoding>(encoding) : nullptr;
 }
 
 std::shared_ptr<AtlasChain> chainOf(const EncodingSpec& encoding) {

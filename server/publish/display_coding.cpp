@@ -14,7 +14,7 @@ constexpr int64_t kStanding_ns = 500'000'000;
 
 QualityRange rangeOf(const EncodingSpec& encoding) {
   return {.finest_qp = encoding.video_qp,
-          .coarsest_qp = encoding.video_qp_max,
+          .coarsest_qp = std::max(encoding.video_qp, encoding.video_qp_max),
           .bits_per_second_max = encoding.bits_per_second_max};
 }
 
@@ -25,37 +25,42 @@ DisplayCoding::DisplayCoding(const EncodingSpec& encoding)
 
 void DisplayCoding::join(uint64_t reader) {
   std::lock_guard lock(mutex_);
-  links_.try_emplace(reader);
+  const RateAllowance allowance(range_.bits_per_second_max);
+  readers_.try_emplace(reader, Reader{.link = {}, .allowance = allowance});
 }
 
 void DisplayCoding::leave(uint64_t reader) {
   std::lock_guard lock(mutex_);
-  links_.erase(reader);
+  readers_.erase(reader);
 }
 
 void DisplayCoding::beginWrite(uint64_t reader, uint64_t bytes, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const auto link = links_.find(reader);
-  if (link != links_.end()) link->second.beginWrite(bytes, now_ns);
+  const auto found = readers_.find(reader);
+  if (found == readers_.end()) return;
+  found->second.link.beginWrite(bytes, now_ns);
+  found->second.allowance.note(bytes, now_ns);
 }
 
 void DisplayCoding::endWrite(uint64_t reader, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const auto link = links_.find(reader);
-  if (link != links_.end()) link->second.endWrite(now_ns);
+  const auto found = readers_.find(reader);
+  if (found != readers_.end()) found->second.link.endWrite(now_ns);
 }
 
 void DisplayCoding::endAtlas(uint64_t reader, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const auto link = links_.find(reader);
-  if (link != links_.end()) link->second.endAtlas(now_ns);
+  const auto found = readers_.find(reader);
+  if (found != readers_.end()) found->second.link.endAtlas(now_ns);
 }
 
 bool DisplayCoding::mayBegin(uint64_t reader, int64_t now_ns) const {
   if (range_.bits_per_second_max == 0) return true;
   std::lock_guard lock(mutex_);
-  const auto link = links_.find(reader);
-  return link == links_.end() || link->second.recentBytes(now_ns) * 8 < range_.bits_per_second_max;
+  const auto found = readers_.find(reader);
+  if (found == readers_.end()) return true;
+  const auto& [link, allowance] = found->second;
+  return link.recentBytes(now_ns) * 8 < range_.bits_per_second_max && allowance.isOpen(now_ns);
 }
 
 uint32_t DisplayCoding::beginAtlas(int64_t now_ns) {
@@ -90,8 +95,8 @@ bool DisplayCoding::isWanted() const {
 // Readers without a limit are faster than all others.
 std::optional<double> DisplayCoding::medianSpeed(int64_t now_ns) const {
   std::vector<double> speeds;
-  for (const auto& [reader, link] : links_) {
-    speeds.push_back(link.bytesPerSecond(now_ns).value_or(HUGE_VAL));
+  for (const auto& [number, reader] : readers_) {
+    speeds.push_back(reader.link.bytesPerSecond(now_ns).value_or(HUGE_VAL));
   }
   if (speeds.empty()) return std::nullopt;
   const auto median = speeds.begin() + std::ptrdiff_t(speeds.size() / 2);
@@ -101,9 +106,9 @@ std::optional<double> DisplayCoding::medianSpeed(int64_t now_ns) const {
 
 // One reader that takes nothing does not hold the others back, as with the median.
 bool DisplayCoding::isIdle() const {
-  const auto writing_count =
-      std::ranges::count_if(links_, [](const auto& entry) { return entry.second.isWriting(); });
-  return 2 * size_t(writing_count) <= links_.size();
+  const auto writing_count = std::ranges::count_if(
+      readers_, [](const auto& entry) { return entry.second.link.isWriting(); });
+  return 2 * size_t(writing_count) <= readers_.size();
 }
 
 }  // namespace viewloom

@@ -9,6 +9,7 @@
 
 #include "display/display_spec.h"
 #include "publish/quality_rung.h"
+#include "publish/rate_allowance.h"
 #include "publish/reader_link.h"
 
 namespace viewloom {
@@ -19,7 +20,7 @@ namespace viewloom {
 // Times are monotonic. Thread-safety: all methods may be called from any thread.
 class DisplayCoding {
  public:
-  // Expects an encoding whose quality adapts (adaptsQuality).
+  // Expects an encoding that adapts to lines (adaptsToLines).
   explicit DisplayCoding(const EncodingSpec& encoding);
 
   // For readers, each under a number of its own.
@@ -31,7 +32,7 @@ class DisplayCoding {
   // way.
   void endAtlas(uint64_t reader, int64_t now_ns);
   // Whether this reader may be given another atlas: it got no more than bits_per_second_max in the
-  // last second.
+  // last second, and in the time before.
   bool mayBegin(uint64_t reader, int64_t now_ns) const;
 
   // For the encoders. An atlas begins: its quantisation.
@@ -46,6 +47,11 @@ class DisplayCoding {
   bool isWanted() const;
 
  private:
+  struct Reader {
+    ReaderLink link;
+    RateAllowance allowance;
+  };
+
   std::optional<double> medianSpeed(int64_t now_ns) const;
   // Half of the readers, or more, have all that they were written.
   bool isIdle() const;
@@ -53,7 +59,7 @@ class DisplayCoding {
   const QualityRange range_;
   mutable std::mutex mutex_;  // guards what follows
   QualityRung rung_;
-  std::map<uint64_t, ReaderLink> links_;
+  std::map<uint64_t, Reader> readers_;
   bool is_wanted_ = false;
   uint32_t last_qp_ = 0;  // of the newest atlas; 0 = none yet
   int64_t begun_ns_ = 0;  // likewise

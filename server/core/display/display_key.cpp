@@ -113,7 +113,7 @@ std::string encodingKey(const EncodingSpec& encoding) {
     key.add(encoding.video_qp);
     key.add(static_cast<uint32_t>(encoding.prediction));
   }
-  if (adaptsQuality(encoding)) {
+  if (adaptsToLines(encoding)) {
     key.add(encoding.video_qp_max);
     key.add(static_cast<double>(encoding.bits_per_second_max));
   }

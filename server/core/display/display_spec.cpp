@@ -176,8 +176,10 @@ uint32_t coarsestAdaptedQp(uint32_t finest_qp) {
   return std::min(finest_qp + kSpan, kVideoQpMax);
 }
 
-bool adaptsQuality(const EncodingSpec& encoding) {
-  return encoding.color == BandEncoding::kH264 && encoding.video_qp_max > encoding.video_qp;
+bool adaptsToLines(const EncodingSpec& encoding) {
+  const bool adapts =
+      encoding.video_qp_max > encoding.video_qp || encoding.bits_per_second_max != 0;
+  return encoding.color == BandEncoding::kH264 && adapts;
 }
 
 bool isChained(const EncodingSpec& encoding) {

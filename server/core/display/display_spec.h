@@ -92,14 +92,14 @@ struct EncodingSpec {
   uint32_t video_qp = 24;                     // finest one of kH264, kVideoQpMin..kVideoQpMax
   // Coarsest one that the server may choose, up to kVideoQpMax. Up to video_qp, it chooses none.
   uint32_t video_qp_max = 0;
-  uint64_t bits_per_second_max = 0;  // of video whose quality adapts; 0 = as many as lines take
+  uint64_t bits_per_second_max = 0;  // of kH264, for each viewer; 0 = as many as its line takes
   Prediction prediction = Prediction::kWithinAtlas;  // of kH264
 
   bool operator==(const EncodingSpec&) const = default;
 };
 
-// Whether the server chooses the quantisation, atlas by atlas.
-bool adaptsQuality(const EncodingSpec& encoding);
+// Whether the server chooses the quantisation, atlas by atlas, or keeps viewers to a rate.
+bool adaptsToLines(const EncodingSpec& encoding);
 // Whether atlases may refer to the one before.
 bool isChained(const EncodingSpec& encoding);
 

@@ -188,12 +188,11 @@ TEST_F(DisplayCodingTest, leavesSlowFramesAsTheyAre) {
   }
 }
 
-TEST(DisplayCodingLimitTest, keepsAReaderToItsBits) {
-  EncodingSpec encoding = kEncoding;
-  encoding.bits_per_second_max = 5'000'000;
+// Bits a second that a reader of a fast line gets, on average over a minute.
+double limitedRate(const EncodingSpec& encoding) {
   DisplayCoding coding(encoding);
   Reader reader(coding, 1, 1000);
-  for (int64_t now_ns = 0; now_ns < 10 * kSecond; now_ns += kMs) {
+  for (int64_t now_ns = 0; now_ns < 60 * kSecond; now_ns += kMs) {
     if (now_ns % (40 * kMs) == 0) {
       const uint32_t qp = coding.beginAtlas(now_ns);
       coding.noteCoded(qp, bytesAt(qp));
@@ -201,8 +200,27 @@ TEST(DisplayCodingLimitTest, keepsAReaderToItsBits) {
     }
     reader.runUntil(now_ns);
   }
-  EXPECT_LT(double(reader.sentBytes()) * 8, 1.2 * 5e6 * 10);
-  EXPECT_GT(double(reader.sentBytes()) * 8, 0.7 * 5e6 * 10);
+  return double(reader.sentBytes()) * 8 / 60;
+}
+
+TEST(DisplayCodingLimitTest, keepsAReaderToItsBits) {
+  EncodingSpec encoding = kEncoding;
+  for (const uint64_t bits_max : {5'000'000U, 1'000'000U, 200'000U}) {
+    encoding.bits_per_second_max = bits_max;
+    EXPECT_LT(limitedRate(encoding), 1.1 * double(bits_max)) << bits_max;
+    EXPECT_GT(limitedRate(encoding), 0.7 * double(bits_max)) << bits_max;
+  }
+  encoding.bits_per_second_max = 1;
+  EXPECT_LT(limitedRate(encoding), 8 * double(bytesAt(24)) / 60 + 1) << "one atlas";
+  encoding.bits_per_second_max = UINT64_MAX;
+  EXPECT_GT(limitedRate(encoding), 8 * 20 * double(bytesAt(24)));
+}
+
+TEST(DisplayCodingLimitTest, keepsToItsBitsWhereNoQuantisationIsCoarser) {
+  constexpr EncodingSpec kCoarsest = {
+      .color = BandEncoding::kH264, .video_qp = 51, .bits_per_second_max = 100'000};
+  EXPECT_TRUE(adaptsToLines(kCoarsest));
+  EXPECT_LT(limitedRate(kCoarsest), 1.5 * 100'000);
 }
 
 }  // namespace

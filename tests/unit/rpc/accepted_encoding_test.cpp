@@ -100,19 +100,20 @@ TEST(AcceptedEncoding, saysWhyNoneServes) {
 
 TEST(AcceptedEncoding, adaptsTheQualityUnlessAQuantisationIsGivenAlone) {
   v1::AtlasEncoding asked;
-  EXPECT_FALSE(adaptsQuality(*chooseEncoding(asked, {}, displayOf("portrait")))) << "JPEG";
+  EXPECT_FALSE(adaptsToLines(*chooseEncoding(asked, {}, displayOf("portrait")))) << "JPEG";
   asked.set_color(v1::BAND_ENCODING_H264);
   const auto open = chooseEncoding(asked, {}, displayOf("portrait"));
   EXPECT_EQ(open->video_qp_max, open->video_qp + 16);
   asked.set_video_qp(30);
-  EXPECT_FALSE(adaptsQuality(*chooseEncoding(asked, {}, displayOf("portrait"))));
+  EXPECT_FALSE(adaptsToLines(*chooseEncoding(asked, {}, displayOf("portrait"))));
   asked.set_bits_per_second_max(8'000'000);
   const auto limited = chooseEncoding(asked, {}, displayOf("portrait"));
   EXPECT_EQ(limited->video_qp, 30u);
   EXPECT_EQ(limited->video_qp_max, 46u);
   EXPECT_EQ(limited->bits_per_second_max, 8'000'000u);
   asked.set_video_qp(51);
-  EXPECT_FALSE(adaptsQuality(*chooseEncoding(asked, {}, displayOf("portrait"))));
+  EXPECT_TRUE(adaptsToLines(*chooseEncoding(asked, {}, displayOf("portrait"))))
+      << "the limit holds";
 }
 
 TEST(AcceptedEncoding, namesTheFieldOfAWrongEncoding) {
