@@ -14,7 +14,8 @@ constexpr size_t kWaitingMin = 2;
 }  // namespace
 
 bool AtlasQueue::hasRoom(const EncodedAtlas& atlas) const {
-  return waiting_.size() < kWaitingMin || bytes_ + atlas.byteCount() <= kWaitingBytesMax;
+  if (waiting_.size() < kWaitingMin) return true;
+  return waiting_.size() < kWaitingMax && bytes_ + atlas.byteCount() <= kWaitingBytesMax;
 }
 
 size_t AtlasQueue::offer(AtlasPtr atlas, int64_t arrived_ns) {

@@ -11,9 +11,8 @@
 namespace viewloom {
 
 // An atlas that needs no other replaces all that wait: the newest counts. One that refers to
-// another waits behind that. Where it has not got that one, or too many bytes wait, the reader has
-// fallen out: it gets no more until an atlas comes that needs no other.
-// Thread-safety: none.
+// another waits behind that. Where it has not got that one, or too much waits, the reader has
+// fallen out: it gets no more until an atlas comes that needs no other. Thread-safety: none.
 class AtlasQueue {
  public:
   struct Waiting {
@@ -23,6 +22,8 @@ class AtlasQueue {
 
   // So many bytes wait at most, or two atlases.
   static constexpr uint64_t kWaitingBytesMax = uint64_t{1} << 20;
+  // So many atlases wait at most, however small: a reader that decodes too slowly is as far behind.
+  static constexpr size_t kWaitingMax = 16;
 
   // How many atlases the reader will not get because of this one: those that it replaces, or
   // itself. A reader that has got none yet misses nothing.

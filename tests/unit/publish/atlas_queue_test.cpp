@@ -68,6 +68,16 @@ TEST(AtlasQueue, isBoundedInBytes) {
   EXPECT_FALSE(queue.isStuck());
 }
 
+TEST(AtlasQueue, isBoundedInAtlasesHoweverSmall) {
+  AtlasQueue queue;
+  for (uint64_t sequence = 1; sequence <= AtlasQueue::kWaitingMax; ++sequence) {
+    EXPECT_EQ(queue.offer(chainedAtlas(sequence, sequence - 1, 1)), 0u);
+  }
+  EXPECT_FALSE(queue.isStuck());
+  EXPECT_EQ(queue.offer(chainedAtlas(AtlasQueue::kWaitingMax + 1, AtlasQueue::kWaitingMax, 1)), 1u);
+  EXPECT_TRUE(queue.isStuck());
+}
+
 TEST(AtlasQueue, followsAtlasesThatAreTakenBeforeTheyAreWhole) {
   AtlasQueue queue;
   const AtlasPtr first = chainedAtlas(1, 0);
