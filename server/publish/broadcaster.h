@@ -136,9 +136,11 @@ class Broadcaster::Subscription {
   bool mayBegin(int64_t now_ns) const {
     return !coding_ || coding_->mayBegin(subscriber_id_, now_ns);
   }
-  // The subscriber has fallen out of chained video: it waits for an atlas that needs no other.
-  void wantSelfContained() {
-    if (chain_) chain_->want();
+  // The subscriber has fallen out of chained video: it waits for an atlas that needs no other, and
+  // could take it now. Such atlases are large, and all readers get them: nothing happens where it
+  // may not begin one.
+  void wantSelfContained(int64_t now_ns) {
+    if (chain_ && mayBegin(now_ns)) chain_->want();
   }
 
  private:

@@ -235,7 +235,7 @@ std::optional<grpc::ByteBuffer> WatchCall::takeMessage() {
 
 std::optional<grpc::ByteBuffer> WatchCall::takeOfAtlas() {
   const int64_t now_ns = parts_.clock.nowNs();
-  if (subscription_ && outbox_.isStuck()) subscription_->wantSelfContained();
+  if (subscription_ && outbox_.isStuck()) subscription_->wantSelfContained(now_ns);
   const bool has_budget = !subscription_ || subscription_->mayBegin(now_ns);
   std::optional<grpc::ByteBuffer> message =
       outbox_.take((!ending() || draining_) && (has_budget || draining_));

@@ -218,7 +218,7 @@ net::awaitable<void> Viewer::writeUntilEnd() {
       co_await writeText(*std::move(text), error);
       continue;
     }
-    followChain();
+    leaveChainIfLost();
     std::optional<absl::Status> ended = failure_ ? failure_ : inbox_->ended();
     if (absl::Status status = caller_.recheck(); !ended && !status.ok()) ended = std::move(status);
     if (leaving_) ended = absl::OkStatus();
@@ -227,7 +227,9 @@ net::awaitable<void> Viewer::writeUntilEnd() {
       co_await close(*ended);
       co_return;
     }
-    if (under_way_.size() < kUnderWayCountMax && subscription_->mayBegin(context_.clock.nowNs())) {
+    const int64_t now_ns = context_.clock.nowNs();
+    if (under_way_.size() < kUnderWayCountMax && subscription_->mayBegin(now_ns)) {
+      if (inbox_->isStuck()) subscription_->wantSelfContained(now_ns);
       if (auto arrival = inbox_->take()) {
         co_await writeAtlas(*std::move(arrival), error);
         continue;
@@ -239,9 +241,8 @@ net::awaitable<void> Viewer::writeUntilEnd() {
   }
 }
 
-void Viewer::followChain() {
+void Viewer::leaveChainIfLost() {
   if (!subscription_) return;
-  if (inbox_->isStuck()) subscription_->wantSelfContained();
   if (!fall_outs_.areTooMany(inbox_->fallOutCount(), context_.clock.nowNs())) return;
   AskedDisplay changed = asked_;
   changed.encoding.set_prediction(v1::PREDICTION_WITHIN_ATLAS);

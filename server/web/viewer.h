@@ -26,7 +26,7 @@ namespace viewloom {
 // Down go atlases (see atlas_message.h; their header also carries "delivery", which counts from 1)
 // and text messages (text_replies.h). Up come proto ViewerMessages as JSON.
 // At most two atlases are under way to a client; of those that come meanwhile only the newest is
-// kept.
+// kept, or what AtlasQueue keeps of chained video.
 //
 // Thread-safety: run() once, leave() from the strand of the stream; everything happens on it.
 class Viewer final : public LiveReader, public std::enable_shared_from_this<Viewer> {
@@ -67,9 +67,8 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   absl::Status takeMessage(std::string_view text);
   absl::Status change(const v1::ChangeDisplay& changes);
   void noteShown(uint64_t delivery);
-  // Asks for what the client needs where it has fallen out of chained video. One that keeps falling
-  // out is moved to atlases that need no other.
-  void followChain();
+  // Moves a client that keeps falling out of chained video to atlases that need no other.
+  void leaveChainIfLost();
   void wake() { awake_.cancel(); }
 
   WebContext& context_;

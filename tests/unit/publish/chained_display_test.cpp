@@ -75,8 +75,25 @@ TEST_F(ChainedDisplayTest, makesAStandingAtlasAgainForAReaderThatHasFallenOut) {
   demands_.clear();
   broadcaster_.remakeStanding(900 * kMs);
   EXPECT_THAT(demands_, IsEmpty());
-  reader->wantSelfContained();
+  reader->wantSelfContained(900 * kMs);
   broadcaster_.remakeStanding(1000 * kMs);
+  EXPECT_THAT(demands_, ElementsAre("s"));
+}
+
+TEST_F(ChainedDisplayTest, makesNoneForAReaderThatMayNotTakeIt) {
+  EncodingSpec limited = kChained;
+  limited.bits_per_second_max = 1'000'000;
+  const auto reader = join(broadcaster_, "s", quiltOf(2), std::make_shared<Watcher>(), limited);
+  make(reader->displayId(), 0);
+  make(reader->displayId(), 300 * kMs);
+  reader->beginWrite(250'000, 300 * kMs);
+  reader->endAtlas(310 * kMs);
+  demands_.clear();
+  reader->wantSelfContained(900 * kMs);
+  broadcaster_.remakeStanding(1000 * kMs);
+  EXPECT_THAT(demands_, IsEmpty());
+  reader->wantSelfContained(1500 * kMs);
+  broadcaster_.remakeStanding(1500 * kMs);
   EXPECT_THAT(demands_, ElementsAre("s"));
 }
 
