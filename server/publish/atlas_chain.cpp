@@ -18,7 +18,10 @@ void AtlasChain::want() {
 
 void AtlasChain::wantAtOnce() {
   std::lock_guard lock(mutex_);
-  if (!comesAlone()) is_wanted_ = is_due_ = true;
+  if (comesAlone()) return;
+  is_wanted_ = true;
+  // Otherwise what is made at once would refer to others, and be of no use.
+  is_due_ |= was_apart_;
 }
 
 bool AtlasChain::isApart(int64_t now_ns) const {
@@ -27,8 +30,9 @@ bool AtlasChain::isApart(int64_t now_ns) const {
 
 bool AtlasChain::wantsAgain(int64_t now_ns) {
   std::lock_guard lock(mutex_);
+  was_apart_ = isApart(now_ns);
   const bool do_stand = begun_ns_ != kNever_ns && now_ns - begun_ns_ >= kChainStands_ns;
-  if (!is_wanted_ || !do_stand || !isApart(now_ns)) return false;
+  if (!is_wanted_ || !do_stand || !was_apart_) return false;
   is_due_ = true;
   return true;
 }
@@ -44,9 +48,10 @@ uint64_t AtlasChain::begin(uint64_t sequence, int64_t now_ns) {
   const bool is_broken = begun_sequence_ != whole_sequence_;
   const uint64_t before = std::exchange(begun_sequence_, sequence);
   begun_ns_ = now_ns;
-  const bool refers = before != 0 && !is_broken && !(is_wanted_ && isApart(now_ns));
+  was_apart_ = isApart(now_ns);
+  const bool refers = before != 0 && !is_broken && !(is_wanted_ && was_apart_);
   if (refers) return before;
-  is_wanted_ = false;
+  is_wanted_ = was_apart_ = false;
   alone_sequence_ = sequence;
   alone_ns_ = now_ns;
   return 0;

@@ -22,7 +22,8 @@ class AtlasChain {
   // For readers. What comes refers to atlases that this one has not got. Nothing happens where the
   // newest that has begun needs no other.
   void want();
-  // The same of one that joins: also where frames stand, an atlas is to be made at once.
+  // The same of one that joins: also where frames stand, an atlas is to be made at once, unless the
+  // last one that needs no other is too new.
   void wantAtOnce();
 
   // To be called a few times a second. True when somebody waits and no frame comes: the newest
@@ -53,6 +54,7 @@ class AtlasChain {
   int64_t begun_ns_ = kNever_ns;
   uint64_t alone_sequence_ = 0;  // the last one that needs no other
   int64_t alone_ns_ = kNever_ns;
+  bool was_apart_ = true;  // isApart(), when it was last asked
 };
 
 }  // namespace viewloom

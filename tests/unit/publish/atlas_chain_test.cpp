@@ -76,9 +76,20 @@ TEST_F(AtlasChainTest, isDueAtOnceForOneThatJoins) {
   chain_.wantAtOnce();
   EXPECT_FALSE(chain_.isDue()) << "the newest needs no other";
   make(33 * kMs);
+  EXPECT_FALSE(chain_.wantsAgain(280 * kMs)) << "nobody waits";
   chain_.wantAtOnce();
   EXPECT_TRUE(chain_.isDue());
   EXPECT_EQ(make(300 * kMs), 0u);
+}
+
+TEST_F(AtlasChainTest, makesNothingAtOnceThatWouldReferToOthers) {
+  make(0);
+  make(33 * kMs);
+  chain_.wantAtOnce();
+  EXPECT_FALSE(chain_.isDue()) << "the last one that needs no other began 33 ms before";
+  EXPECT_EQ(make(66 * kMs), 2u);
+  EXPECT_TRUE(chain_.wantsAgain(316 * kMs)) << "frames stand";
+  EXPECT_EQ(make(320 * kMs), 0u);
 }
 
 }  // namespace
