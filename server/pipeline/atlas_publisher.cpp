@@ -113,7 +113,10 @@ EncodedAtlas begunAtlas(const AtlasRun& run) {
 void beginVideo(const AtlasOutput& output, int64_t now_ns, EncodedAtlas& atlas) {
   const ActiveDisplay& display = *output.display;
   VideoStart start{.qp = display.encoding.video_qp};
-  if (display.coding) start.qp = display.coding->beginAtlas(now_ns);
+  if (display.coding) {
+    const bool is_again = display.chain && display.chain->isDue();
+    start.qp = is_again ? display.coding->beginAgain(now_ns) : display.coding->beginAtlas(now_ns);
+  }
   atlas.video_qp = start.qp;
   if (display.chain) {
     atlas.reference_sequence = display.chain->begin(atlas.sequence, now_ns);

@@ -65,11 +65,21 @@ bool DisplayCoding::mayBegin(uint64_t reader, int64_t now_ns) const {
 
 uint32_t DisplayCoding::beginAtlas(int64_t now_ns) {
   std::lock_guard lock(mutex_);
+  return begin(range_.coarsest_qp, now_ns);
+}
+
+uint32_t DisplayCoding::beginAgain(int64_t now_ns) {
+  std::lock_guard lock(mutex_);
+  return begin(last_qp_ != 0 ? last_qp_ : range_.coarsest_qp, now_ns);
+}
+
+uint32_t DisplayCoding::begin(uint32_t qp_max, int64_t now_ns) {
   if (last_qp_ != 0) apart_ns_ = now_ns - begun_ns_;
   begun_ns_ = now_ns;
   rung_.noteBegun(now_ns);
   rung_.adapt(medianSpeed(now_ns), now_ns);
-  last_qp_ = std::exchange(is_wanted_, false) ? range_.finest_qp : rung_.qp();
+  const bool is_finest = std::exchange(is_wanted_, false);
+  last_qp_ = is_finest ? range_.finest_qp : std::min(rung_.qp(), qp_max);
   return last_qp_;
 }
 

@@ -37,6 +37,9 @@ class DisplayCoding {
 
   // For the encoders. An atlas begins: its quantisation.
   uint32_t beginAtlas(int64_t now_ns);
+  // The same of the newest one, which is made again for a reader that has not got it. It comes no
+  // coarser than before: all readers see it.
+  uint32_t beginAgain(int64_t now_ns);
   // It was coded.
   void noteCoded(uint32_t qp, uint64_t bytes);
 
@@ -52,6 +55,8 @@ class DisplayCoding {
     RateAllowance allowance;
   };
 
+  // With the lock: the next atlas begins, at this quantisation at most.
+  uint32_t begin(uint32_t qp_max, int64_t now_ns);
   std::optional<double> medianSpeed(int64_t now_ns) const;
   // Half of the readers, or more, have all that they were written.
   bool isIdle() const;

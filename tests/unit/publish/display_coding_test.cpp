@@ -166,6 +166,7 @@ TEST_F(DisplayCodingTest, wantsTheFinestOnceFramesStand) {
   EXPECT_FALSE(coding_.isWanted());
   runUntil(8 * kSecond, {&reader}, false);
   EXPECT_FALSE(coding_.wantsFiner(now_ns_)) << "it is the finest";
+  EXPECT_EQ(coding_.beginAgain(now_ns_), 24u) << "somebody joins";
   makeAtlas({&reader});
   EXPECT_GE(qp_, 32u) << "frames move again";
 }
