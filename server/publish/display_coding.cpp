@@ -9,8 +9,10 @@
 namespace viewloom {
 namespace {
 
-// Without an atlas for so long, and for twice the time between the last two, frames stand.
+// Without an atlas for so long, and for twice the time between the last two, frames stand; at the
+// latest after so long, as with publishers that send a frame now and then.
 constexpr int64_t kStanding_ns = 500'000'000;
+constexpr int64_t kStandingMax_ns = 3'000'000'000;
 
 QualityRange rangeOf(const EncodingSpec& encoding) {
   return {.finest_qp = encoding.video_qp,
@@ -91,7 +93,8 @@ void DisplayCoding::noteCoded(uint32_t qp, uint64_t bytes) {
 bool DisplayCoding::wantsFiner(int64_t now_ns) {
   std::lock_guard lock(mutex_);
   const bool is_coarse = last_qp_ > range_.finest_qp;
-  const bool do_stand = now_ns - begun_ns_ >= std::max(kStanding_ns, 2 * apart_ns_);
+  const int64_t standing_ns = std::clamp(2 * apart_ns_, kStanding_ns, kStandingMax_ns);
+  const bool do_stand = now_ns - begun_ns_ >= standing_ns;
   if (is_wanted_ || !is_coarse || !do_stand || !isIdle()) return false;
   is_wanted_ = true;
   return true;

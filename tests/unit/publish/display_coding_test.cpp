@@ -189,6 +189,18 @@ TEST_F(DisplayCodingTest, leavesSlowFramesAsTheyAre) {
   }
 }
 
+TEST_F(DisplayCodingTest, wantsTheFinestOfFramesThatComeNowAndThen) {
+  Reader reader(coding_, 1, 1);
+  runUntil(5 * kSecond, {&reader});
+  runUntil(60 * kSecond, {&reader}, false);
+  makeAtlas({&reader});
+  EXPECT_GT(qp_, 24u);
+  runUntil(62 * kSecond, {&reader}, false);
+  EXPECT_FALSE(coding_.wantsFiner(now_ns_));
+  runUntil(64 * kSecond, {&reader}, false);
+  EXPECT_TRUE(coding_.wantsFiner(now_ns_));
+}
+
 // Bits a second that a reader of a fast line gets, on average over a minute.
 double limitedRate(const EncodingSpec& encoding) {
   DisplayCoding coding(encoding);
