@@ -65,6 +65,11 @@ uint64_t makingBytes(const EncodingSpec& encoding, uint64_t area_px) {
          (kColorPixelBytes + (has_depth ? kDepthPixelBytes : 0) + (encoding.with_mask ? 1 : 0));
 }
 
+uint64_t queuedBytes(uint64_t atlas_bytes) {
+  return std::max(kQueuedAtlasesMin * atlas_bytes,
+                  std::min(kQueuedAtlasesMax * atlas_bytes, kQueuedBytesMax));
+}
+
 // The largest atlas of the same shape that fits into what is left.
 std::string fittingAtlas(const TileGrid& grid, uint64_t asked_bytes, uint64_t left_bytes) {
   constexpr double kRoundedDown = 0.98;
@@ -79,7 +84,7 @@ std::string fittingAtlas(const TileGrid& grid, uint64_t asked_bytes, uint64_t le
 }  // namespace
 
 uint64_t DisplayPrice::viewerBytes() const {
-  return kConnectionBytes + encoded_bytes;
+  return kConnectionBytes + encoded_bytes + queue_bytes;
 }
 
 uint64_t atlasPixels(const DisplaySpec& spec) {
@@ -103,11 +108,13 @@ DisplayPrice displayPrice(const DisplaySpec& spec, const EncodingSpec& encoding)
   const uint64_t pictures_bytes = stack ? videoPicturesBytes(*stack) : 0;
   const uint64_t encoder_bytes = stack ? videoEncoderBytes(stack->pictureSize()) : 0;
   const bool is_chained = stack && isChained(encoding);
+  const uint64_t encoded_bytes = encodedBytes(encoding, area_px);
   return {.rays_bytes = kRaysCopies * samples * grid.view_count * sizeof(abi::ViewParams),
-          .encoded_bytes = encodedBytes(encoding, area_px),
+          .encoded_bytes = encoded_bytes,
           .making_bytes =
               makingBytes(encoding, area_px) + pictures_bytes + (is_chained ? 0 : encoder_bytes),
-          .chain_bytes = is_chained ? stack->picture_count * encoder_bytes : 0};
+          .chain_bytes = is_chained ? stack->picture_count * encoder_bytes : 0,
+          .queue_bytes = is_chained ? queuedBytes(encoded_bytes) : 0};
 }
 
 absl::StatusOr<Reservation> admitDisplay(MemoryBudget& budget, const DisplaySpec& spec,

@@ -2,6 +2,7 @@
 // Price of an open display and of each of its viewers in memory.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -18,12 +19,19 @@ struct DisplayPrice {
   uint64_t encoded_bytes = 0;  // one atlas as it is sent
   uint64_t making_bytes = 0;   // planes of one atlas while it is made
   uint64_t chain_bytes = 0;    // encoders that chained video keeps from atlas to atlas
+  uint64_t queue_bytes = 0;    // atlases of chained video that wait for one viewer
 
   // Held while it is open: its rays, its newest atlas, the one that follows, and its encoders.
   uint64_t displayBytes() const { return rays_bytes + 2 * encoded_bytes + chain_bytes; }
-  // A slow viewer is still sent an older atlas; its call has buffers.
+  // A slow viewer is still sent an older atlas, and others may wait; its call has buffers.
   uint64_t viewerBytes() const;
 };
+
+// Atlases of chained video that wait for one viewer: two, however large they are, or so many, of so
+// many bytes together.
+inline constexpr size_t kQueuedAtlasesMin = 2;
+inline constexpr size_t kQueuedAtlasesMax = 16;
+inline constexpr uint64_t kQueuedBytesMax = uint64_t{1} << 20;
 
 // Expects a completed spec, as all functions here.
 uint64_t atlasPixels(const DisplaySpec& spec);

@@ -6,15 +6,9 @@
 #include "base/check.h"
 
 namespace viewloom {
-namespace {
-
-// So many wait at least, however large they are.
-constexpr size_t kWaitingMin = 2;
-
-}  // namespace
 
 bool AtlasQueue::hasRoom(const EncodedAtlas& atlas) const {
-  if (waiting_.size() < kWaitingMin) return true;
+  if (waiting_.size() < kQueuedAtlasesMin) return true;
   return waiting_.size() < kWaitingMax && bytes_ + atlas.byteCount() <= kWaitingBytesMax;
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 
+#include "admission/display_price.h"
 #include "encode/encoded_band.h"
 
 namespace viewloom {
@@ -20,10 +21,10 @@ class AtlasQueue {
     int64_t arrived_ns = 0;
   };
 
-  // So many bytes wait at most, or two atlases.
-  static constexpr uint64_t kWaitingBytesMax = uint64_t{1} << 20;
+  // So many bytes wait at most, or two atlases. They are part of the reader's price.
+  static constexpr uint64_t kWaitingBytesMax = kQueuedBytesMax;
   // So many atlases wait at most, however small: a reader that decodes too slowly is as far behind.
-  static constexpr size_t kWaitingMax = 16;
+  static constexpr size_t kWaitingMax = kQueuedAtlasesMax;
 
   // How many atlases the reader will not get because of this one: those that it replaces, or
   // itself. A reader that has got none yet misses nothing.

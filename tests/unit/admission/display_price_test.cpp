@@ -74,6 +74,21 @@ TEST(DisplayPrice, countsTheEncodersOfChainedVideo) {
   EXPECT_EQ(chained.displayBytes(), alone.displayBytes() + chained.chain_bytes);
 }
 
+TEST(DisplayPrice, countsWhatWaitsForAViewerOfChainedVideo) {
+  const auto priceOf = [](uint32_t side_px, bool has_depth) {
+    return displayPrice(quiltOf(side_px), {.color = BandEncoding::kH264,
+                                           .with_depth = has_depth,
+                                           .planes = BandEncoding::kRaw,
+                                           .prediction = Prediction::kAcrossAtlases});
+  };
+  const uint64_t area_px = 1024 * 1024;
+  EXPECT_EQ(priceOf(1024, false).queue_bytes, area_px) << "two of half a byte a pixel";
+  EXPECT_EQ(priceOf(1024, true).queue_bytes, 9 * area_px);
+  EXPECT_EQ(priceOf(256, false).queue_bytes, area_px / 2) << "sixteen";
+  EXPECT_EQ(priceOf(1024, true).viewerBytes(), kConnectionBytes + 9 * area_px / 2 + 9 * area_px);
+  EXPECT_EQ(displayPrice(quiltOf(1024), {.color = BandEncoding::kH264}).queue_bytes, 0u);
+}
+
 TEST(DisplayPrice, growsWithTheSamplesOfALens) {
   DisplaySpec spec = quiltOf(1024);
   const uint64_t sharp_bytes = displayPrice(spec, {}).rays_bytes;
