@@ -21,6 +21,7 @@ std::optional<grpc::ByteBuffer> AtlasAnnouncements::take(const EncodedAtlas& atl
 
 void AtlasOutbox::restart(std::shared_ptr<AtlasReader> reader) {
   close(false);
+  sends_earlier_ = sending_.has_value();
   queue_.clear();
   reader_ = std::move(reader);
   begun_sequence_ = 0;  // of another display the sequence starts anew
@@ -80,10 +81,11 @@ std::optional<grpc::ByteBuffer> AtlasOutbox::take(bool may_begin) {
       if (sending_->wasWhole()) {
         ++sent_count_;
         metrics_.atlases_sent[Transport::kGrpc].add();
-      } else {
+      } else if (!sends_earlier_) {
         queue_.noteLost(sending_->atlas().sequence);
       }
       sending_.reset();
+      sends_earlier_ = false;
       has_ended_atlas_ = true;
     }
   }

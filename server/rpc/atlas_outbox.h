@@ -80,6 +80,7 @@ class AtlasOutbox {
   // The newest, unless it is whole or being written.
   std::optional<AtlasMessages> growing_;
   std::optional<AtlasMessages> sending_;
+  bool sends_earlier_ = false;  // an atlas of the display before
   AtlasAnnouncements announcements_;
   SentPoses sent_poses_;
   bool has_ended_atlas_ = false;

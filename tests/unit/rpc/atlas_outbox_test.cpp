@@ -173,6 +173,16 @@ TEST_F(AtlasOutboxTest, beginsAChainedAtlasThatIsBeingMadeOnlyBehindItsReference
   EXPECT_EQ(written(), "") << "the client has not got 4";
 }
 
+TEST_F(AtlasOutboxTest, keepsTheChainOfAnotherDisplayWhereAnAtlasOfTheFirstIsLost) {
+  grow(1)->put(0, someBytes());
+  EXPECT_EQ(written(), "Lh1b");
+  outbox_.restart(nullptr);
+  outbox_.offer(chained(1, 0));
+  EXPECT_EQ(written(), "aLh1bbe");
+  outbox_.offer(chained(2, 1));
+  EXPECT_EQ(written(), "h2bbe");
+}
+
 TEST_F(AtlasOutboxTest, writesTheNewestWholeAtlasBeforeOneThatIsBeingMade) {
   outbox_.offer(whole(7));
   const GrowingAtlasPtr growing = grow(8);
