@@ -23,6 +23,9 @@ class FallOuts {
     return times_ns_.size() >= kTooMany;
   }
 
+  // Those so far do not count any more.
+  void forgive() { times_ns_.clear(); }
+
  private:
   uint64_t count_ = 0;
   std::deque<int64_t> times_ns_;

@@ -242,11 +242,11 @@ net::awaitable<void> Viewer::writeUntilEnd() {
 }
 
 void Viewer::leaveChainIfLost() {
-  if (!subscription_) return;
   if (!fall_outs_.areTooMany(inbox_->fallOutCount(), context_.clock.nowNs())) return;
   AskedDisplay changed = asked_;
   changed.encoding.set_prediction(v1::PREDICTION_WITHIN_ATLAS);
-  if (absl::Status status = subscribe(changed); !status.ok()) failure_ = std::move(status);
+  // Where there is no room for another display, it goes on as it is.
+  if (!subscribe(changed).ok()) fall_outs_.forgive();
 }
 
 void Viewer::beginOfWrite() {

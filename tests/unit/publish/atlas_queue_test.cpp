@@ -105,6 +105,8 @@ TEST(FallOuts, areTooManyOnlyWithinAWhile) {
     EXPECT_FALSE(many.areTooMany(count, int64_t(count) * kSecond)) << count;
   }
   EXPECT_TRUE(many.areTooMany(FallOuts::kTooMany, 5 * kSecond));
+  many.forgive();
+  EXPECT_FALSE(many.areTooMany(FallOuts::kTooMany + 1, 5 * kSecond));
 }
 
 }  // namespace
