@@ -81,7 +81,7 @@ uint32_t DisplayCoding::begin(uint32_t qp_max, int64_t now_ns) {
   rung_.noteBegun(now_ns);
   rung_.adapt(medianSpeed(now_ns), now_ns);
   const bool is_finest = std::exchange(is_wanted_, false);
-  last_qp_ = is_finest ? range_.finest_qp : std::min(rung_.qp(), qp_max);
+  last_qp_ = std::min(rung_.qp(), is_finest ? rung_.finestAlone() : qp_max);
   return last_qp_;
 }
 
@@ -92,7 +92,7 @@ void DisplayCoding::noteCoded(uint32_t qp, uint64_t bytes) {
 
 bool DisplayCoding::wantsFiner(int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const bool is_coarse = last_qp_ > range_.finest_qp;
+  const bool is_coarse = last_qp_ > rung_.finestAlone();
   const int64_t standing_ns = std::clamp(2 * apart_ns_, kStanding_ns, kStandingMax_ns);
   const bool do_stand = now_ns - begun_ns_ >= standing_ns;
   if (is_wanted_ || !is_coarse || !do_stand || !isIdle()) return false;

@@ -44,7 +44,8 @@ class DisplayCoding {
   void noteCoded(uint32_t qp, uint64_t bytes);
 
   // To be called a few times a second. True when frames have come to stand, and the newest atlas is
-  // to be made again: beginAtlas() then gives the finest quantisation once.
+  // to be made again: beginAtlas() then gives the finest quantisation once, of which an atlas fits
+  // into bits_per_second_max.
   bool wantsFiner(int64_t now_ns);
   // The newest atlas is to be made again, and has not begun yet.
   bool isWanted() const;

@@ -44,11 +44,23 @@ void QualityRung::noteCoded(uint32_t qp, uint64_t bytes) {
   finest_bytes_ = is_first ? finest_bytes : std::lerp(finest_bytes_, finest_bytes, kNewestWeight);
 }
 
+double QualityRung::bytesAt(uint32_t qp) const {
+  const double steps = (double(qp) - double(range_.finest_qp)) / kStepQp;
+  return finest_bytes_ * std::pow(kStepBytes, steps);
+}
+
 double QualityRung::demand(uint32_t qp, int64_t now_ns) const {
   const auto count = std::ranges::count_if(
       begun_ns_, [&](int64_t begun_ns) { return begun_ns > now_ns - kRungWindow_ns; });
-  const double steps = (double(qp) - double(range_.finest_qp)) / kStepQp;
-  return double(count) * finest_bytes_ * std::pow(kStepBytes, steps);
+  return double(count) * bytesAt(qp);
+}
+
+uint32_t QualityRung::finestAlone() const {
+  if (range_.bits_per_second_max == 0) return range_.finest_qp;
+  const double bytes_max = double(range_.bits_per_second_max) / 8;
+  size_t step = 0;
+  while (step + 1 < stepCount() && bytesAt(qpOf(step)) > bytes_max) ++step;
+  return qpOf(step);
 }
 
 size_t QualityRung::firstFitting(double limit, int64_t now_ns) const {

@@ -31,12 +31,18 @@ class QualityRung {
   // Chooses anew for a line of so many bytes a second; none = no limit shows.
   void adapt(std::optional<double> link_bytes_per_second, int64_t now_ns);
 
+  // Finest quantisation at which one atlas fits into the bits that readers want in a second, or the
+  // coarsest. For frames that stand, so that the next one does not have to wait.
+  uint32_t finestAlone() const;
+
   // Bytes a second at a quantisation; 0 before the first atlas.
   double demand(uint32_t qp, int64_t now_ns) const;
 
  private:
   uint32_t qpOf(size_t step) const;
   size_t stepCount() const;
+  // Bytes of an atlas; 0 before the first.
+  double bytesAt(uint32_t qp) const;
   size_t firstFitting(double limit, int64_t now_ns) const;
 
   const QualityRange range_;

@@ -229,6 +229,22 @@ TEST(DisplayCodingLimitTest, keepsAReaderToItsBits) {
   EXPECT_GT(limitedRate(encoding), 8 * 20 * double(bytesAt(24)));
 }
 
+TEST(DisplayCodingLimitTest, refinesStandingFramesAsFarAsTheirBitsFitIntoASecond) {
+  EncodingSpec encoding = kEncoding;
+  encoding.bits_per_second_max = 2'000'000;
+  DisplayCoding coding(encoding);
+  Reader reader(coding, 1, 1000);
+  uint32_t qp = 0;
+  for (int64_t now_ns = 0; now_ns < 3 * kSecond; now_ns += kSecond / 30) {
+    qp = coding.beginAtlas(now_ns);
+    coding.noteCoded(qp, bytesAt(qp));
+  }
+  EXPECT_EQ(qp, 40u);
+  ASSERT_TRUE(coding.wantsFiner(4 * kSecond));
+  EXPECT_EQ(coding.beginAtlas(4 * kSecond), 32u) << "370 kB at the finest, 171 kB two steps above";
+  EXPECT_FALSE(coding.wantsFiner(9 * kSecond));
+}
+
 TEST(DisplayCodingLimitTest, keepsToItsBitsWhereNoQuantisationIsCoarser) {
   constexpr EncodingSpec kCoarsest = {
       .color = BandEncoding::kH264, .video_qp = 51, .bits_per_second_max = 100'000};
