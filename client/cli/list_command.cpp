@@ -68,12 +68,14 @@ void print(const v1::ListStreamsResponse& response) {
 }
 
 void print(const v1::ListDisplaysResponse& response) {
-  std::printf("DISPLAY  STREAM               ATLAS        VIEWS  WATCHERS  ATLASES\n");
+  std::printf("DISPLAY  STREAM               ATLAS        VIEWS  WATCHERS  ATLASES  RUNG\n");
   for (const v1::DisplayEntry& display : response.displays()) {
-    std::printf("%-8llu %-20s %-12s %-6u %-9u %llu\n",
+    const uint32_t rung = display.layout().video_rung();
+    std::printf("%-8llu %-20s %-12s %-6u %-9u %-8llu %s\n",
                 static_cast<unsigned long long>(display.id()), printable(display.stream()).c_str(),
                 sizeText(display.layout().size()).c_str(), display.layout().view_count(),
-                display.subscriber_count(), static_cast<unsigned long long>(display.atlas_count()));
+                display.subscriber_count(), static_cast<unsigned long long>(display.atlas_count()),
+                rung == 0 ? "-" : strCat(rung).c_str());
   }
 }
 

@@ -151,6 +151,7 @@ class WatchRun {
     std::lock_guard lock(mutex_);
     if (motion) motion_ = motion;
     newest_ = atlas.header;
+    rung_ = atlas.layout->video_rung();
     newest_times_ = atlas.end.times();
     latency_.note(newest_.frame_number(), newest_.capture_time_ns(), captureTimeNs());
   }
@@ -193,16 +194,15 @@ class WatchRun {
     const double bytes_rate = bytes_rate_.perSecond(counts.received_bytes);
     const std::optional<ClockOffset> server = watcher_->serverClock();
     std::lock_guard lock(mutex_);
-    const double server_ms = static_cast<double>(newest_times_.total_ns()) * 1e-6;
-    return strCat("frame ", newest_.frame_number(), ": ", formatNumber(rate, 1), " atlases/s, ",
-                  formatBytes(bytes_rate), "/s, ", videoText(newest_), latencyText(), " (server ",
-                  formatNumber(server_ms, 0), " ms); ", counts.atlases.whole, " whole, ",
-                  counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " incomplete",
-                  motion_ ? "; " + motionText(*motion_) : "",
-                  server ? "; " + clockText(*server) : "",
-                  newest_.views_outside().empty()
-                      ? ""
-                      : "; past the edge of the source: " + outsideText(newest_.views_outside()));
+    return strCat(
+        "frame ", newest_.frame_number(), ": ", formatNumber(rate, 1), " atlases/s, ",
+        formatBytes(bytes_rate), "/s, ", videoText(newest_, rung_), latencyText(), " (server ",
+        formatNumber(1e-6 * double(newest_times_.total_ns()), 0), " ms); ", counts.atlases.whole,
+        " whole, ", counts.atlases.gaps, " dropped, ", counts.atlases.discarded, " incomplete",
+        motion_ ? "; " + motionText(*motion_) : "", server ? "; " + clockText(*server) : "",
+        newest_.views_outside().empty()
+            ? ""
+            : "; past the edge of the source: " + outsideText(newest_.views_outside()));
   }
 
   std::string latencyText() const {
@@ -239,6 +239,7 @@ class WatchRun {
   RateMeter bytes_rate_;
   mutable std::mutex mutex_;
   v1::AtlasHeader newest_;
+  uint32_t rung_ = 0;  // of its video
   v1::StageTimes newest_times_;
   FrameLatency latency_;
   std::optional<MotionLatency> motion_;

@@ -30,8 +30,9 @@ std::string planeText(const v1::AtlasLayout& layout) {
   return strCat(codes.bits(), " bits of depth from ", 1 / codes.inv_z_near(), " m to ", far);
 }
 
-std::string videoText(const v1::AtlasHeader& header) {
-  return header.video_qp() == 0 ? "" : strCat("video QP ", header.video_qp(), ", ");
+std::string videoText(const v1::AtlasHeader& header, uint32_t rung) {
+  if (header.video_qp() == 0) return "";
+  return strCat("video QP ", header.video_qp(), rung > 1 ? " (second rung), " : ", ");
 }
 
 std::optional<std::string> DefaultsNews::note(const v1::AtlasHeader& header,

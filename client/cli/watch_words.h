@@ -20,7 +20,8 @@ std::string motionText(const MotionLatency& latency);
 std::string planeText(const v1::AtlasLayout& layout);
 
 // "video QP 32, " for H.264: the quantisation that the server has chosen. "" for other encodings.
-std::string videoText(const v1::AtlasHeader& header);
+// `rung`: see AtlasLayout; the second is named.
+std::string videoText(const v1::AtlasHeader& header, uint32_t rung);
 
 // Says when a stream's defaults, and with them a display, have changed.
 // Thread-safety: none; one owner.

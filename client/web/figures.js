@@ -59,10 +59,11 @@ function milliseconds(value) {
   return value >= 100 ? value.toFixed(0) : value.toFixed(1);
 }
 
-// With the quantisation that the server has chosen.
-function videoText({video_qp, reference_sequence}) {
+// With the quantisation that the server has chosen, and its second rung for slow lines.
+function videoText({video_qp, reference_sequence, encoding}) {
   const chosen = video_qp ? `, QP ${video_qp}` : '';
-  return ` of H.264${chosen}${reference_sequence ? ', chained' : ''}`;
+  const rung = encoding.video_rung > 1 ? ', second rung' : '';
+  return ` of H.264${chosen}${rung}${reference_sequence ? ', chained' : ''}`;
 }
 
 export class Figures {

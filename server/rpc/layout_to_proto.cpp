@@ -136,6 +136,7 @@ v1::AtlasLayout layoutToProto(const AtlasLayout& layout, const EncodingSpec& enc
   *proto.mutable_encoding() = encodingToProto(encoding);
   if (layout.depth_codes) *proto.mutable_depth_codes() = depthCodesToProto(layout);
   if (layout.stack) *proto.mutable_video() = stackToProto(*layout.stack);
+  proto.set_video_rung(rungNumber(encoding));
   for (const View& view : layout.views) *proto.add_views() = cameraToProto(view.camera);
   return proto;
 }

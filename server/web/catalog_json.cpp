@@ -91,6 +91,7 @@ json encodingJson(const EncodingSpec& encoding) {
             {"jpeg_quality", encoding.jpeg_quality},
             {"video_qp", encoding.video_qp},
             {"bits_per_second_max", encoding.bits_per_second_max},
+            {"video_rung", rungNumber(encoding)},
             {"prediction", isChained(encoding) ? "ACROSS_ATLASES" : "WITHIN_ATLAS"}};
   }
   return {{"jpeg_quality", encoding.jpeg_quality},

@@ -116,6 +116,7 @@ std::string encodingKey(const EncodingSpec& encoding) {
   if (adaptsToLines(encoding)) {
     key.add(encoding.video_qp_max);
     key.add(static_cast<double>(encoding.bits_per_second_max));
+    key.add(static_cast<uint32_t>(encoding.rung));
   }
   key.add(static_cast<uint32_t>(encoding.with_depth));
   key.add(static_cast<uint32_t>(encoding.with_mask));

@@ -176,10 +176,23 @@ uint32_t coarsestAdaptedQp(uint32_t finest_qp) {
   return std::min(finest_qp + kSpan, kVideoQpMax);
 }
 
+bool adaptsQuality(const EncodingSpec& encoding) {
+  return encoding.color == BandEncoding::kH264 && encoding.video_qp_max > encoding.video_qp;
+}
+
 bool adaptsToLines(const EncodingSpec& encoding) {
-  const bool adapts =
-      encoding.video_qp_max > encoding.video_qp || encoding.bits_per_second_max != 0;
-  return encoding.color == BandEncoding::kH264 && adapts;
+  const bool has_limit = encoding.color == BandEncoding::kH264 && encoding.bits_per_second_max != 0;
+  return has_limit || adaptsQuality(encoding);
+}
+
+uint32_t rungNumber(const EncodingSpec& encoding) {
+  return adaptsQuality(encoding) ? uint32_t(encoding.rung) + 1 : 0;
+}
+
+EncodingSpec onOtherRung(EncodingSpec encoding) {
+  const bool is_first = encoding.rung == VideoRung::kFirst;
+  encoding.rung = is_first ? VideoRung::kSecond : VideoRung::kFirst;
+  return encoding;
 }
 
 bool isChained(const EncodingSpec& encoding) {

@@ -79,6 +79,9 @@ std::optional<DisplaySpec> withFocalDistance(DisplaySpec spec, double focal_dist
 enum class BandEncoding : uint8_t { kJpeg, kJpegPlanes, kZstd, kRaw, kH264, kCompactDepth };
 inline constexpr size_t kBandEncodingCount = 6;
 enum class Chroma : uint8_t { k420, k444 };
+// Qualities in which a display is coded at a time. Viewers begin on the first rung; those whose
+// lines are far slower may be moved to the second.
+enum class VideoRung : uint8_t { kFirst, kSecond, kCount };
 
 // Packing of the atlas.
 struct EncodingSpec {
@@ -94,12 +97,19 @@ struct EncodingSpec {
   uint32_t video_qp_max = 0;
   uint64_t bits_per_second_max = 0;  // of kH264, for each viewer; 0 = as many as its line takes
   Prediction prediction = Prediction::kWithinAtlas;  // of kH264
+  VideoRung rung = VideoRung::kFirst;                // of video whose quality adapts
 
   bool operator==(const EncodingSpec&) const = default;
 };
 
-// Whether the server chooses the quantisation, atlas by atlas, or keeps viewers to a rate.
+// Whether the server chooses the quantisation, atlas by atlas.
+bool adaptsQuality(const EncodingSpec& encoding);
+// The same, or whether it keeps viewers to a rate.
 bool adaptsToLines(const EncodingSpec& encoding);
+// Number of the rung, as proto AtlasLayout has it: 1 or 2; 0 = the quality does not adapt.
+uint32_t rungNumber(const EncodingSpec& encoding);
+// The same video on the other rung.
+EncodingSpec onOtherRung(EncodingSpec encoding);
 // Whether atlases may refer to the one before.
 bool isChained(const EncodingSpec& encoding);
 

@@ -55,6 +55,11 @@ TEST(EncodingKey, ignoresWhatDoesNotReachTheBytes) {
   limited.bits_per_second_max = 8'000'000;
   EXPECT_NE(encodingKey(adapting), encodingKey({.color = BandEncoding::kH264, .video_qp = 20}));
   EXPECT_NE(encodingKey(adapting), encodingKey(limited));
+  EXPECT_NE(encodingKey(adapting), encodingKey(onOtherRung(adapting)));
+  EXPECT_EQ(arrangementKey(adapting), arrangementKey(onOtherRung(adapting)));
+  EXPECT_EQ(onOtherRung(onOtherRung(adapting)), adapting);
+  EXPECT_EQ(rungNumber(onOtherRung(adapting)), 2u);
+  EXPECT_EQ(rungNumber({.color = BandEncoding::kH264, .bits_per_second_max = 1'000'000}), 0u);
   EXPECT_NE(arrangementKey({.color = BandEncoding::kH264}), arrangementKey({}));
   const EncodingSpec chained = {.color = BandEncoding::kH264,
                                 .prediction = Prediction::kAcrossAtlases};

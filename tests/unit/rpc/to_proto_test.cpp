@@ -97,6 +97,14 @@ TEST(LayoutToProto, namesEverything) {
   EXPECT_EQ(proto.views_size(), 2);
 }
 
+TEST(LayoutToProto, namesTheRungOfVideoThatAdapts) {
+  EncodingSpec encoding = {.color = BandEncoding::kH264, .video_qp = 24};
+  EXPECT_EQ(layoutToProto({}, encoding).video_rung(), 0u);
+  encoding.video_qp_max = 40;
+  EXPECT_EQ(layoutToProto({}, encoding).video_rung(), 1u);
+  EXPECT_EQ(layoutToProto({}, onOtherRung(encoding)).video_rung(), 2u);
+}
+
 // `Wanted` for surfaces at infinity.
 v1::Wanted wantedAfar(const std::vector<AtlasPtr>& atlases, uint32_t display_count) {
   return wantedToProto(atlases, std::vector<InvZRange>(atlases.size()), display_count);

@@ -157,6 +157,7 @@ TEST(AtlasMessage, holdsPicturesOfAVideo) {
   EXPECT_EQ(header.at("picture_bytes"), nlohmann::json::parse("[2, 1]"));
   EXPECT_EQ(header.at("encoding").at("color"), "H264");
   EXPECT_EQ(header.at("encoding").at("video_qp"), 30);
+  EXPECT_EQ(header.at("encoding").at("video_rung"), 0) << "its quality does not adapt";
   EXPECT_EQ(header.at("video_qp"), 34);
   const nlohmann::json& video = header.at("layout").at("video");
   EXPECT_EQ(video.at("picture_count"), 12);
