@@ -19,6 +19,11 @@ constexpr double kRaiseShare = 0.7;
 // A finer step that was left so soon was too fine. One that was kept for so long fits.
 constexpr int64_t kTrial_ns = 2'000'000'000;
 constexpr int64_t kRaiseWaitMax_ns = 8'000'000'000;
+// A line is far too slow where it takes less than every other atlas. Another encoding, in this many
+// coarser steps at least, would then give it all of them.
+constexpr double kFarShare = 0.5;
+constexpr size_t kFarSteps = 2;
+static_assert(kStepBytes * kStepBytes < kFarShare);
 
 }  // namespace
 
@@ -49,10 +54,13 @@ double QualityRung::bytesAt(uint32_t qp) const {
   return finest_bytes_ * std::pow(kStepBytes, steps);
 }
 
+size_t QualityRung::atlasesPerSecond(int64_t now_ns) const {
+  return size_t(std::ranges::count_if(
+      begun_ns_, [&](int64_t begun_ns) { return begun_ns > now_ns - kRungWindow_ns; }));
+}
+
 double QualityRung::demand(uint32_t qp, int64_t now_ns) const {
-  const auto count = std::ranges::count_if(
-      begun_ns_, [&](int64_t begun_ns) { return begun_ns > now_ns - kRungWindow_ns; });
-  return double(count) * bytesAt(qp);
+  return double(atlasesPerSecond(now_ns)) * bytesAt(qp);
 }
 
 uint32_t QualityRung::finestAlone() const {
@@ -61,6 +69,20 @@ uint32_t QualityRung::finestAlone() const {
   size_t step = 0;
   while (step + 1 < stepCount() && bytesAt(qpOf(step)) > bytes_max) ++step;
   return qpOf(step);
+}
+
+// A line that shows no limit takes at least what it has been given. It is worth a finer step where
+// that is the next one.
+LineFit QualityRung::fitOf(const LineSpeed& line, int64_t now_ns) const {
+  const double needed = demand(qp(), now_ns);
+  if (needed == 0) return LineFit::kNear;
+  if (!line.bytes_per_second) {
+    const bool had_nearly_all = double(line.recent_bytes) >= kStepBytes * needed;
+    return had_nearly_all ? LineFit::kFits : LineFit::kUnknown;
+  }
+  if (needed <= kRaiseShare * *line.bytes_per_second) return LineFit::kFits;
+  const bool is_far = *line.bytes_per_second < kFarShare * needed;
+  return is_far && step_ + kFarSteps < stepCount() ? LineFit::kFar : LineFit::kNear;
 }
 
 size_t QualityRung::firstFitting(double limit, int64_t now_ns) const {

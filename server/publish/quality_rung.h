@@ -7,6 +7,8 @@
 #include <deque>
 #include <optional>
 
+#include "publish/line_fit.h"
+
 namespace viewloom {
 
 // Quantisations that may be chosen, and what readers want at most.
@@ -37,6 +39,10 @@ class QualityRung {
 
   // Bytes a second at a quantisation; 0 before the first atlas.
   double demand(uint32_t qp, int64_t now_ns) const;
+  // Atlases that began in the last second.
+  size_t atlasesPerSecond(int64_t now_ns) const;
+  // How it suits the line of a reader, as it is now.
+  LineFit fitOf(const LineSpeed& line, int64_t now_ns) const;
 
  private:
   uint32_t qpOf(size_t step) const;

@@ -32,6 +32,10 @@ class Display {
     return rung_.qp();
   }
 
+  LineFit fitOf(std::optional<double> bytes_per_second, uint64_t recent_bytes = 0) const {
+    return rung_.fitOf({bytes_per_second, recent_bytes}, now_ns_ - 1);
+  }
+
  private:
   QualityRung rung_;
   int64_t now_ns_ = 0;
@@ -82,6 +86,26 @@ TEST(QualityRungTest, keepsToTheBitsThatReadersWant) {
   EXPECT_EQ(Display(range).run(1500, std::nullopt), 32u);
   range.bits_per_second_max = 16'500'000;
   EXPECT_EQ(Display(range).run(1500, std::nullopt), 24u);
+}
+
+TEST(QualityRungTest, knowsWhichLinesItSuits) {
+  Display display;
+  EXPECT_EQ(display.fitOf(1e5), LineFit::kNear) << "no frames come";
+  EXPECT_EQ(display.run(2000, std::nullopt), 24u);  // 2 MB/s
+  EXPECT_EQ(display.fitOf(3e6), LineFit::kFits);
+  EXPECT_EQ(display.fitOf(2.2e6), LineFit::kNear);
+  EXPECT_EQ(display.fitOf(1.1e6), LineFit::kNear) << "it takes more than every other atlas";
+  EXPECT_EQ(display.fitOf(0.9e6), LineFit::kFar);
+  EXPECT_EQ(display.fitOf(std::nullopt, 1'500'000), LineFit::kFits) << "it had the next step";
+  EXPECT_EQ(display.fitOf(std::nullopt, 1'000'000), LineFit::kUnknown);
+}
+
+TEST(QualityRungTest, callsNoLineFarWhereNothingCoarserWouldHelp) {
+  Display display;
+  EXPECT_EQ(display.run(2000, 1.1e6), 32u);
+  EXPECT_EQ(display.fitOf(3e5), LineFit::kFar);
+  EXPECT_EQ(display.run(2000, 7.5e5), 36u);
+  EXPECT_EQ(display.fitOf(2e5), LineFit::kNear) << "one step is left, and no more";
 }
 
 TEST(QualityRungTest, endsAtTheCoarsestBetweenTwoSteps) {
