@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "access/access_control.h"
+#include "admission/coding_room.h"
 #include "admission/request_boundary.h"
 #include "base/byte_pool.h"
 #include "base/log.h"
+#include "base/thread_time.h"
 #include "decode/frame_intake.h"
 #include "engine_room.h"
 #include "publish/broadcaster.h"
@@ -87,6 +89,7 @@ struct Service::Parts {
   const std::unique_ptr<TlsWatch> tls;  // null = no encryption
   MemoryBudget memory;
   StreamDirectory directory;
+  CodingRoom coding_room{std::thread::hardware_concurrency(), processTimeNs};
   Broadcaster broadcaster;
   BytePool planes;
   const VideoEncoderChoicePtr video_encoders;
@@ -110,7 +113,7 @@ Service::Parts::Parts(const Config& config, const Clock& clock,
       memory(memoryBudgetBytes(config.memory),
              [this](MemoryUse use) { metrics.memory_refused[use].add(); }),
       directory(clock, config.limits.streams_max),
-      broadcaster(broadcasterLimits(config.limits), memory),
+      broadcaster(broadcasterLimits(config.limits), memory, coding_room),
       planes(kKeptPlaneCount, config.limits.frame_bytes_max),
       video_encoders(chooseVideoEncoder(config.pipeline.video_encoder)),
       engine_room(openEngineRoom(config, atlasLimits(config.limits),

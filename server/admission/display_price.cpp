@@ -122,8 +122,11 @@ absl::StatusOr<Reservation> admitDisplay(MemoryBudget& budget, const DisplaySpec
                                          const std::string& identity) {
   const DisplayPrice price = displayPrice(spec, encoding);
   const TileGrid grid = tileGridOf(spec);
+  // A second rung is coded beside the first one, which may be at work or not.
+  const uint64_t making_count = encoding.rung == VideoRung::kSecond ? 2 : 1;
   // Its first viewer comes right after it.
-  const uint64_t asked_bytes = price.displayBytes() + price.making_bytes + price.viewerBytes();
+  const uint64_t asked_bytes =
+      price.displayBytes() + making_count * price.making_bytes + price.viewerBytes();
   absl::StatusOr<Reservation> granted = budget.reserve(
       {.use = MemoryUse::kDisplays, .identity = identity, .bytes = asked_bytes},
       strCat("the display (", grid.view_count, grid.view_count == 1 ? " view, " : " views, ",

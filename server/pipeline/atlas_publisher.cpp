@@ -133,6 +133,7 @@ void noteCoded(const AtlasOutput& output, const EncodedAtlas& atlas) {
   if (display.chain) display.chain->noteWhole(atlas.sequence);
   const bool is_usual = !display.chain || atlas.reference_sequence != 0;
   if (display.coding && is_usual) display.coding->noteCoded(atlas.video_qp, atlas.byteCount());
+  if (display.coding) display.coding->noteCodingTime(output.video->codingNs());
 }
 
 }  // namespace

@@ -76,7 +76,9 @@ absl::StatusOr<CodedPicture> VideoAtlas::codeNext(VideoEncoders& encoders, ByteP
     encoder = nullptr;  // also of a chain: the next atlas begins with another
     return status;
   }
-  coded.help_ns = (encoder->format().thread_count - 1) * (wallTimeNs() - begun_ns);
+  const int64_t taken_ns = wallTimeNs() - begun_ns;
+  coded.help_ns = (encoder->format().thread_count - 1) * taken_ns;
+  coding_ns_ += taken_ns + coded.help_ns;
   planes = nullptr;
   // Sizes vary from frame to frame; powers of two let the pool's buffers settle after a few.
   BytePool::Buffer unit = bytes.take(std::bit_ceil(access_unit_.size()));

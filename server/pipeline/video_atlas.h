@@ -47,6 +47,9 @@ class VideoAtlas {
   bool put(uint32_t picture, const BandPixels& rows, BytePool& pool);
   // Codes the next picture. After an error the atlas cannot go on.
   absl::StatusOr<CodedPicture> codeNext(VideoEncoders& encoders, BytePool& bytes);
+  // Time that coding has taken so far, of all threads together. For whoever knows that no picture
+  // is being coded.
+  int64_t codingNs() const { return coding_ns_; }
 
  private:
   struct Picture {
@@ -67,7 +70,8 @@ class VideoAtlas {
   VideoStart start_;
   // From the first picture to the last; whose turn it is. Not of a chain.
   std::unique_ptr<VideoEncoder> encoder_;
-  std::vector<uint8_t> access_unit_;  // whose turn it is
+  std::vector<uint8_t> access_unit_;  // whose turn it is; so is the next
+  int64_t coding_ns_ = 0;
   std::mutex mutex_;
   std::vector<Picture> pictures_;
   uint32_t next_ = 0;  // picture to be coded

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "admission/coding_room.h"
 #include "admission/memory_budget.h"
 #include "base/payer.h"
 #include "base/status.h"
@@ -40,6 +41,13 @@ struct ActiveDisplay {
 
 using ActiveDisplayPtr = std::shared_ptr<const ActiveDisplay>;
 
+// A subscriber is to take its place at the other rung of its display.
+struct RungMove {
+  uint64_t display_id = 0;  // that it watches so far
+  uint64_t subscriber_id = 0;
+  VideoRung to = VideoRung::kSecond;
+};
+
 struct BroadcasterLimits {
   uint32_t display_count_max = 64;
   uint32_t subscriber_count_max = 1024;
@@ -49,8 +57,10 @@ struct BroadcasterLimits {
 // held that a subscriber could want.
 class Broadcaster {
  public:
-  // Displays and viewers take their memory from the budget, which outlives the broadcaster.
-  explicit Broadcaster(BroadcasterLimits limits, MemoryBudget& memory = unboundedMemory());
+  // Displays and viewers take their memory from the budget, and second rungs their time from the
+  // room. Both outlive the broadcaster.
+  explicit Broadcaster(BroadcasterLimits limits, MemoryBudget& memory = unboundedMemory(),
+                       CodingRoom& coding_room = noCodingRoom());
   ~Broadcaster();
 
   // A place among the watchers of a display; leaving it is destroying it.
@@ -68,6 +78,13 @@ class Broadcaster {
                                                           std::shared_ptr<Subscriber> subscriber,
                                                           EyeTrackPtr eyes = nullptr,
                                                           const Subscription* replaced = nullptr);
+
+  // Takes the place that Subscription::wantedMove() asks for. It is another display of the same
+  // picture, whose sequence is its own. `subscriber` is told of what begins from now on. The place
+  // before is left as the new one is taken, and stays where that is refused. RESOURCE_EXHAUSTED
+  // where no processor time is left for a second encoding; others as above.
+  absl::StatusOr<std::unique_ptr<Subscription>> moveToRung(
+      const RungMove& move, const std::shared_ptr<Subscriber>& subscriber, int64_t now_ns);
 
   // Called, on the subscriber's thread, whenever the set of displays of a stream changed: a joiner
   // without a finished atlas wants one. Set once, before anybody subscribes.
@@ -103,8 +120,8 @@ class Broadcaster {
   // Atlases published for the display so far.
   uint64_t atlasCount(uint64_t display_id) const;
 
-  // To be called a few times a second: displays whose frames stand may want their newest atlas
-  // again (DisplayCoding::wantsFiner, AtlasChain::wantsAgain).
+  // To be called a few times a second: looks at the load of the processors. Displays whose frames
+  // stand may want their newest atlas again (DisplayCoding::wantsFiner, AtlasChain::wantsAgain).
   void remakeStanding(int64_t now_ns);
 
   // Ends every subscriber with OK and refuses new ones.
@@ -117,7 +134,9 @@ class Broadcaster {
 
 class Broadcaster::Subscription {
  public:
-  Subscription(std::shared_ptr<State> state, const ActiveDisplay& display, uint64_t subscriber_id);
+  // `line`: what is known of the subscriber's line; none = it is a newcomer.
+  Subscription(std::shared_ptr<State> state, const ActiveDisplay& display, uint64_t subscriber_id,
+               const std::optional<ReaderLine>& line = std::nullopt);
   ~Subscription();
   uint64_t displayId() const { return display_id_; }
   uint64_t subscriberId() const { return subscriber_id_; }
@@ -136,6 +155,9 @@ class Broadcaster::Subscription {
   bool mayBegin(int64_t now_ns) const {
     return !coding_ || coding_->mayBegin(subscriber_id_, now_ns);
   }
+  // To be called a few times a second, if the subscriber can move: whether its line asks for the
+  // other rung of the display. A move that is not made is asked for again after a while.
+  std::optional<RungMove> wantedMove(int64_t now_ns);
   // The subscriber has fallen out of chained video: it waits for an atlas that needs no other, and
   // could take it now. Such atlases are large, and all readers get them: nothing happens where it
   // may not begin one.
@@ -144,9 +166,12 @@ class Broadcaster::Subscription {
   }
 
  private:
+  LineFit fitOfFirstRung(int64_t now_ns) const;
+
   std::shared_ptr<State> state_;
   uint64_t display_id_;
   uint64_t subscriber_id_;
+  VideoRung rung_;
   std::shared_ptr<DisplayCoding> coding_;
   std::shared_ptr<AtlasChain> chain_;
 };

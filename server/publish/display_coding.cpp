@@ -25,44 +25,83 @@ QualityRange rangeOf(const EncodingSpec& encoding) {
 DisplayCoding::DisplayCoding(const EncodingSpec& encoding)
     : range_(rangeOf(encoding)), rung_(range_) {}
 
-void DisplayCoding::join(uint64_t reader) {
+std::shared_ptr<DisplayCoding> DisplayCoding::otherRung() const {
   std::lock_guard lock(mutex_);
-  const RateAllowance allowance(range_.bits_per_second_max);
-  readers_.try_emplace(reader, Reader{.link = {}, .allowance = allowance});
+  return std::make_shared<DisplayCoding>(range_, rung_);
+}
+
+ReaderLine DisplayCoding::newLine() const {
+  return {.link = {}, .allowance = RateAllowance(range_.bits_per_second_max), .rung = {}};
+}
+
+void DisplayCoding::join(uint64_t reader, const std::optional<ReaderLine>& line) {
+  std::lock_guard lock(mutex_);
+  lines_.try_emplace(reader, line ? *line : newLine());
 }
 
 void DisplayCoding::leave(uint64_t reader) {
   std::lock_guard lock(mutex_);
-  readers_.erase(reader);
+  lines_.erase(reader);
 }
 
 void DisplayCoding::beginWrite(uint64_t reader, uint64_t bytes, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const auto found = readers_.find(reader);
-  if (found == readers_.end()) return;
-  found->second.link.beginWrite(bytes, now_ns);
-  found->second.allowance.note(bytes, now_ns);
+  const auto line = lines_.find(reader);
+  if (line == lines_.end()) return;
+  line->second.link.beginWrite(bytes, now_ns);
+  line->second.allowance.note(bytes, now_ns);
 }
 
 void DisplayCoding::endWrite(uint64_t reader, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const auto found = readers_.find(reader);
-  if (found != readers_.end()) found->second.link.endWrite(now_ns);
+  const auto line = lines_.find(reader);
+  if (line != lines_.end()) line->second.link.endWrite(now_ns);
 }
 
 void DisplayCoding::endAtlas(uint64_t reader, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const auto found = readers_.find(reader);
-  if (found != readers_.end()) found->second.link.endAtlas(now_ns);
+  const auto line = lines_.find(reader);
+  if (line != lines_.end()) line->second.link.endAtlas(now_ns);
 }
 
 bool DisplayCoding::mayBegin(uint64_t reader, int64_t now_ns) const {
   if (range_.bits_per_second_max == 0) return true;
   std::lock_guard lock(mutex_);
-  const auto found = readers_.find(reader);
-  if (found == readers_.end()) return true;
-  const auto& [link, allowance] = found->second;
-  return link.recentBytes(now_ns) * 8 < range_.bits_per_second_max && allowance.isOpen(now_ns);
+  const auto line = lines_.find(reader);
+  if (line == lines_.end()) return true;
+  return line->second.link.recentBytes(now_ns) * 8 < range_.bits_per_second_max &&
+         line->second.allowance.isOpen(now_ns);
+}
+
+ReaderLine DisplayCoding::lineOf(uint64_t reader) const {
+  std::lock_guard lock(mutex_);
+  const auto line = lines_.find(reader);
+  return line == lines_.end() ? newLine() : line->second;
+}
+
+LineSpeed DisplayCoding::speedOf(uint64_t reader, int64_t now_ns) const {
+  std::lock_guard lock(mutex_);
+  const auto line = lines_.find(reader);
+  if (line == lines_.end()) return {};
+  const ReaderLink& link = line->second.link;
+  return {.bytes_per_second = link.bytesPerSecond(now_ns),
+          .recent_bytes = link.recentBytes(now_ns)};
+}
+
+uint32_t DisplayCoding::qp() const {
+  std::lock_guard lock(mutex_);
+  return rung_.qp();
+}
+
+LineFit DisplayCoding::fitOf(const LineSpeed& speed, int64_t now_ns) const {
+  std::lock_guard lock(mutex_);
+  return rung_.fitOf(speed, now_ns);
+}
+
+bool DisplayCoding::wantsOtherRung(uint64_t reader, LineFit first, int64_t now_ns) {
+  std::lock_guard lock(mutex_);
+  const auto line = lines_.find(reader);
+  return line != lines_.end() && line->second.rung.wantsOther(first, now_ns);
 }
 
 uint32_t DisplayCoding::beginAtlas(int64_t now_ns) {
@@ -90,6 +129,17 @@ void DisplayCoding::noteCoded(uint32_t qp, uint64_t bytes) {
   rung_.noteCoded(qp, bytes);
 }
 
+void DisplayCoding::noteCodingTime(int64_t time_ns) {
+  std::lock_guard lock(mutex_);
+  coding_ns_ = time_ns;
+}
+
+std::optional<double> DisplayCoding::busyCoreCount(int64_t now_ns) const {
+  std::lock_guard lock(mutex_);
+  if (coding_ns_ == 0) return std::nullopt;
+  return double(rung_.atlasesPerSecond(now_ns)) * double(coding_ns_) * 1e-9;
+}
+
 bool DisplayCoding::wantsFiner(int64_t now_ns) {
   std::lock_guard lock(mutex_);
   const bool is_coarse = last_qp_ > rung_.finestAlone();
@@ -108,8 +158,8 @@ bool DisplayCoding::isWanted() const {
 // Readers without a limit are faster than all others.
 std::optional<double> DisplayCoding::medianSpeed(int64_t now_ns) const {
   std::vector<double> speeds;
-  for (const auto& [number, reader] : readers_) {
-    speeds.push_back(reader.link.bytesPerSecond(now_ns).value_or(HUGE_VAL));
+  for (const auto& [reader, line] : lines_) {
+    speeds.push_back(line.link.bytesPerSecond(now_ns).value_or(HUGE_VAL));
   }
   if (speeds.empty()) return std::nullopt;
   const auto median = speeds.begin() + std::ptrdiff_t(speeds.size() / 2);
@@ -120,8 +170,8 @@ std::optional<double> DisplayCoding::medianSpeed(int64_t now_ns) const {
 // One reader that takes nothing does not hold the others back, as with the median.
 bool DisplayCoding::isIdle() const {
   const auto writing_count = std::ranges::count_if(
-      readers_, [](const auto& entry) { return entry.second.link.isWriting(); });
-  return 2 * size_t(writing_count) <= readers_.size();
+      lines_, [](const auto& entry) { return entry.second.link.isWriting(); });
+  return 2 * size_t(writing_count) <= lines_.size();
 }
 
 }  // namespace viewloom

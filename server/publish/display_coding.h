@@ -1,30 +1,44 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quality of the video of one display, between its readers and the encoders.
+// Quality of one rung of a display's video, between its readers and the encoders.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 
 #include "display/display_spec.h"
+#include "publish/line_fit.h"
 #include "publish/quality_rung.h"
 #include "publish/rate_allowance.h"
 #include "publish/reader_link.h"
+#include "publish/reader_rung.h"
 
 namespace viewloom {
 
-// One rung serves all readers of a display. It follows the median of their lines; of two readers,
-// the faster one. Slower readers skip atlases. Once frames stand, the last atlas is coded again at
-// the finest quality.
+// Goes with a reader from rung to rung.
+struct ReaderLine {
+  ReaderLink link;
+  RateAllowance allowance;
+  ReaderRung rung;
+};
+
+// A rung follows the median of its readers' lines; of two readers, the faster one. Slower readers
+// skip atlases, until they are moved to the other rung. Once frames stand, the last atlas is coded
+// again at the finest quality.
 // Times are monotonic. Thread-safety: all methods may be called from any thread.
 class DisplayCoding {
  public:
   // Expects an encoding that adapts to lines (adaptsToLines).
   explicit DisplayCoding(const EncodingSpec& encoding);
+  // One that begins as `rung` is, of that range.
+  DisplayCoding(const QualityRange& range, const QualityRung& rung) : range_(range), rung_(rung) {}
+  // Coding of the display's other rung, which begins as this one is now.
+  std::shared_ptr<DisplayCoding> otherRung() const;
 
   // For readers, each under a number of its own.
-  void join(uint64_t reader);
+  void join(uint64_t reader, const std::optional<ReaderLine>& line = std::nullopt);
   void leave(uint64_t reader);
   void beginWrite(uint64_t reader, uint64_t bytes, int64_t now_ns);
   void endWrite(uint64_t reader, int64_t now_ns);
@@ -35,6 +49,17 @@ class DisplayCoding {
   // last second, and in the time before.
   bool mayBegin(uint64_t reader, int64_t now_ns) const;
 
+  // Knowledge of the reader's line so far.
+  ReaderLine lineOf(uint64_t reader) const;
+  LineSpeed speedOf(uint64_t reader, int64_t now_ns) const;
+  // Quantisation of this rung now.
+  uint32_t qp() const;
+  // How this rung suits a line of that speed.
+  LineFit fitOf(const LineSpeed& speed, int64_t now_ns) const;
+  // To be called a few times a second, with how the first rung suits the reader. Whether it is to
+  // move to the other rung: see ReaderRung.
+  bool wantsOtherRung(uint64_t reader, LineFit first, int64_t now_ns);
+
   // For the encoders. An atlas begins: its quantisation.
   uint32_t beginAtlas(int64_t now_ns);
   // The same of the newest one, which is made again for a reader that has not got it. It comes no
@@ -42,6 +67,10 @@ class DisplayCoding {
   uint32_t beginAgain(int64_t now_ns);
   // It was coded.
   void noteCoded(uint32_t qp, uint64_t bytes);
+  // To code the newest atlas took so much time, of all threads that did it.
+  void noteCodingTime(int64_t time_ns);
+  // Cores that are busy with coding its atlases, such as 0.3; none = not known yet.
+  std::optional<double> busyCoreCount(int64_t now_ns) const;
 
   // To be called a few times a second. True when frames have come to stand, and the newest atlas is
   // to be made again: beginAtlas() then gives the finest quantisation once, of which an atlas fits
@@ -51,11 +80,8 @@ class DisplayCoding {
   bool isWanted() const;
 
  private:
-  struct Reader {
-    ReaderLink link;
-    RateAllowance allowance;
-  };
-
+  // All that is known of a newcomer.
+  ReaderLine newLine() const;
   // With the lock: the next atlas begins, at this quantisation at most.
   uint32_t begin(uint32_t qp_max, int64_t now_ns);
   std::optional<double> medianSpeed(int64_t now_ns) const;
@@ -65,7 +91,8 @@ class DisplayCoding {
   const QualityRange range_;
   mutable std::mutex mutex_;  // guards what follows
   QualityRung rung_;
-  std::map<uint64_t, Reader> readers_;
+  std::map<uint64_t, ReaderLine> lines_;
+  int64_t coding_ns_ = 0;  // of an atlas, as last noted; 0 = none yet
   bool is_wanted_ = false;
   uint32_t last_qp_ = 0;  // of the newest atlas; 0 = none yet
   int64_t begun_ns_ = 0;  // likewise

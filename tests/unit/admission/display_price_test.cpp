@@ -104,6 +104,16 @@ TEST(AdmitDisplay, holdsTheDisplayOnceAnAtlasCouldBeMadeBesideIt) {
   EXPECT_EQ(budget.reservedBytes(MemoryUse::kDisplays), displayPrice(spec, {}).displayBytes());
 }
 
+TEST(AdmitDisplay, leavesRoomForTheFirstRungBesideTheSecond) {
+  const DisplaySpec spec = quiltOf(1024);
+  const EncodingSpec first = {.color = BandEncoding::kH264, .video_qp = 24, .video_qp_max = 40};
+  const DisplayPrice price = displayPrice(spec, first);
+  const uint64_t needed_bytes = price.displayBytes() + price.making_bytes + price.viewerBytes();
+  MemoryBudget budget((needed_bytes + price.making_bytes / 2) * 4 / 3);
+  EXPECT_TRUE(admitDisplay(budget, spec, first, "10.0.0.7").ok());
+  EXPECT_FALSE(admitDisplay(budget, spec, onOtherRung(first), "10.0.0.7").ok());
+}
+
 TEST(AdmitDisplay, saysHowLargeAnAtlasWouldFit) {
   MemoryBudget budget(1'000'000'000);
   const EncodingSpec all{.with_depth = true, .with_mask = true, .planes = BandEncoding::kRaw};

@@ -42,6 +42,17 @@ TEST_F(VideoAtlasTest, codesAPictureOnceAllItsRowsAreThere) {
   EXPECT_EQ(nalUnits(*first.bytes).back().type(), NalType::kIdrSlice);
 }
 
+TEST_F(VideoAtlasTest, measuresTheTimeOfAllItsPictures) {
+  EXPECT_EQ(atlas_.codingNs(), 0);
+  EXPECT_TRUE(put(0, 0, 48));
+  codeNext();
+  const int64_t first_ns = atlas_.codingNs();
+  EXPECT_GT(first_ns, 0);
+  EXPECT_TRUE(put(1, 0, 48));
+  codeNext();
+  EXPECT_GT(atlas_.codingNs(), first_ns);
+}
+
 TEST_F(VideoAtlasTest, codesPicturesInTheirOrder) {
   EXPECT_FALSE(put(2, 0, 48));
   EXPECT_FALSE(put(1, 0, 48));

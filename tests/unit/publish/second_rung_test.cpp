@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// Readers of a broadcaster's display that move to its second rung and back.
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "unit/publish/watcher.h"
+
+namespace viewloom::test::second_rung_test {
+namespace {
+
+constexpr int64_t kMs = 1'000'000;
+constexpr EncodingSpec kAdapting = {
+    .color = BandEncoding::kH264, .video_qp = 24, .video_qp_max = 40};
+constexpr int64_t kAtlas_ms = 100;  // the display takes 1 MB/s at its finest
+constexpr double kSlow = 300;
+
+uint64_t bytesAt(uint32_t qp) {
+  return uint64_t(100'000 * std::pow(0.68, (double(qp) - 24) / 4));
+}
+
+// A reader with a place at a display, which takes the next atlas once its socket has the last one.
+struct Reader {
+  SubscriptionPtr place;
+  double bytes_per_ms = 0;  // 0 = as fast as they come
+  int64_t free_ns = 0;
+};
+
+class SecondRungTest : public testing::Test {
+ protected:
+  SubscriptionPtr watch(const EncodingSpec& encoding = kAdapting) {
+    return join(broadcaster_, "s", quiltOf(2), std::make_shared<Watcher>(), encoding);
+  }
+
+  std::shared_ptr<DisplayCoding> codingOf(const SubscriptionPtr& place) const {
+    return broadcaster_.display(place->displayId())->coding;
+  }
+
+  // An atlas of every display, as the pipeline makes them, for all readers that are free.
+  void makeAtlases(const std::vector<Reader*>& readers) {
+    std::map<uint64_t, uint64_t> bytes;
+    for (const ActiveDisplayPtr& display : broadcaster_.displays("s")) {
+      const uint32_t qp = display->coding->beginAtlas(now_ns_);
+      bytes[display->id] = bytesAt(qp);
+      display->coding->noteCoded(qp, bytesAt(qp));
+      display->coding->noteCodingTime(coding_ns_);
+    }
+    for (Reader* const reader : readers) {
+      if (reader->free_ns > now_ns_) continue;
+      const uint64_t atlas_bytes = bytes[reader->place->displayId()];
+      const bool is_fast = reader->bytes_per_ms == 0;
+      const double busy_ms = is_fast ? 0 : double(atlas_bytes) / reader->bytes_per_ms;
+      reader->free_ns = now_ns_ + int64_t(busy_ms * kMs);
+      reader->place->beginWrite(atlas_bytes, now_ns_);
+      reader->place->endAtlas(reader->free_ns);
+    }
+  }
+
+  // The first move that a reader wants within so long, while ten atlases come in a second.
+  std::optional<RungMove> wantedWithin(int64_t duration_ms, Reader& wanting,
+                                       const std::vector<Reader*>& readers) {
+    for (const int64_t end_ns = now_ns_ + duration_ms * kMs; now_ns_ < end_ns;) {
+      makeAtlases(readers);
+      now_ns_ += kAtlas_ms * kMs;
+      used_ns_ += int64_t(busy_core_count_ * kAtlas_ms * kMs);
+      broadcaster_.remakeStanding(now_ns_);
+      if (const auto move = wanting.place->wantedMove(now_ns_)) return move;
+    }
+    return std::nullopt;
+  }
+
+  absl::Status move(Reader& reader, const RungMove& move) {
+    auto place = broadcaster_.moveToRung(move, std::make_shared<Watcher>(), now_ns_);
+    if (place.ok()) reader.place = *std::move(place);
+    return place.status();
+  }
+
+  int64_t now_ns_ = 1000 * kMs;
+  int64_t used_ns_ = 0;
+  double busy_core_count_ = 0.5;
+  int64_t coding_ns_ = 30 * kMs;
+  CodingRoom room_{2, [this] { return used_ns_; }};
+  Broadcaster broadcaster_{{.subscriber_count_max = 4}, unboundedMemory(), room_};
+  Reader fast_{.place = watch()};
+  Reader slow_{.place = watch(), .bytes_per_ms = kSlow};
+};
+
+TEST_F(SecondRungTest, isMadeWhileAReaderIsFarBelowTheOthers) {
+  EXPECT_FALSE(wantedWithin(2500, slow_, {&fast_, &slow_}));
+  const auto wanted = wantedWithin(2000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(wanted.has_value());
+  EXPECT_EQ(wanted->to, VideoRung::kSecond);
+  ASSERT_TRUE(move(slow_, *wanted).ok());
+  EXPECT_NE(slow_.place->displayId(), fast_.place->displayId());
+  const ActiveDisplayPtr first = broadcaster_.display(fast_.place->displayId());
+  const ActiveDisplayPtr second = broadcaster_.display(slow_.place->displayId());
+  EXPECT_EQ(second->picture_key, first->picture_key) << "they share one trace";
+  EXPECT_EQ(second->encoding, onOtherRung(first->encoding));
+  EXPECT_EQ(first->subscriber_count, 1u);
+  EXPECT_EQ(second->subscriber_count, 1u);
+  EXPECT_EQ(first->coding->beginAtlas(now_ns_), 24u);
+  EXPECT_GE(second->coding->beginAtlas(now_ns_), 32u) << "from its first atlas on";
+  EXPECT_FALSE(wantedWithin(5000, fast_, {&fast_, &slow_}));
+  slow_.place = nullptr;
+  EXPECT_EQ(broadcaster_.displays("s").size(), 1u);
+}
+
+TEST_F(SecondRungTest, isSharedByAllThatAreSlow) {
+  Reader other{.place = watch(), .bytes_per_ms = kSlow};
+  Reader third{.place = watch()};
+  const std::vector<Reader*> all = {&fast_, &slow_, &other, &third};
+  const auto wanted = wantedWithin(5000, slow_, all);
+  ASSERT_TRUE(wanted.has_value());
+  ASSERT_TRUE(move(slow_, *wanted).ok()) << "it needs no fifth place";
+  const auto later = wantedWithin(5000, other, all);
+  ASSERT_TRUE(later.has_value());
+  ASSERT_TRUE(move(other, *later).ok()) << "one encoding serves both: it costs nothing more";
+  EXPECT_EQ(other.place->displayId(), slow_.place->displayId());
+  EXPECT_EQ(broadcaster_.displays("s").size(), 2u);
+  EXPECT_FALSE(wantedWithin(5000, other, all)) << "there is no third rung";
+}
+
+TEST_F(SecondRungTest, isLeftOnceTheLineAllowsTheFirst) {
+  const auto wanted = wantedWithin(5000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(wanted.has_value());
+  ASSERT_TRUE(move(slow_, *wanted).ok());
+  EXPECT_FALSE(wantedWithin(10'000, slow_, {&fast_, &slow_}));
+  slow_.bytes_per_ms = 0;
+  const auto back = wantedWithin(20'000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(back->to, VideoRung::kFirst);
+  ASSERT_TRUE(move(slow_, *back).ok());
+  EXPECT_EQ(slow_.place->displayId(), fast_.place->displayId());
+  EXPECT_EQ(broadcaster_.displays("s").size(), 1u);
+}
+
+TEST_F(SecondRungTest, isLeftWhereNobodyIsOnTheFirst) {
+  const auto wanted = wantedWithin(5000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(wanted.has_value());
+  ASSERT_TRUE(move(slow_, *wanted).ok());
+  fast_.place = nullptr;
+  const auto back = wantedWithin(5000, slow_, {&slow_});
+  ASSERT_TRUE(back.has_value());
+  ASSERT_TRUE(move(slow_, *back).ok());
+  EXPECT_EQ(broadcaster_.display(slow_.place->displayId())->encoding.rung, VideoRung::kFirst);
+  EXPECT_GE(codingOf(slow_.place)->beginAtlas(now_ns_), 32u) << "its line is as it was";
+}
+
+TEST_F(SecondRungTest, isNotMadeWithoutTimeToCodeIt) {
+  busy_core_count_ = 1.5;
+  const auto wanted = wantedWithin(5000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(wanted.has_value());
+  EXPECT_EQ(move(slow_, *wanted).code(), absl::StatusCode::kResourceExhausted) << "1.8 of 2 cores";
+  EXPECT_EQ(slow_.place->displayId(), fast_.place->displayId());
+  EXPECT_FALSE(wantedWithin(2500, slow_, {&fast_, &slow_})) << "it is asked for after a while";
+  coding_ns_ = 5 * kMs;
+  const auto again = wantedWithin(1500, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(again.has_value());
+  EXPECT_TRUE(move(slow_, *again).ok());
+}
+
+TEST_F(SecondRungTest, goesOnceOthersNeedItsTime) {
+  const auto wanted = wantedWithin(5000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(wanted.has_value());
+  ASSERT_TRUE(move(slow_, *wanted).ok());
+  busy_core_count_ = 2;
+  const auto back = wantedWithin(8000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(back->to, VideoRung::kFirst);
+  EXPECT_TRUE(move(slow_, *back).ok());
+  const auto again = wantedWithin(5000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(again.has_value());
+  EXPECT_FALSE(move(slow_, *again).ok());
+}
+
+TEST_F(SecondRungTest, hasAChainOfItsOwn) {
+  EncodingSpec chained = kAdapting;
+  chained.prediction = Prediction::kAcrossAtlases;
+  Reader fast{.place = watch(chained)};
+  Reader slow{.place = watch(chained), .bytes_per_ms = kSlow};
+  fast_.place = nullptr;
+  slow_.place = nullptr;
+  const auto wanted = wantedWithin(5000, slow, {&fast, &slow});
+  ASSERT_TRUE(wanted.has_value());
+  ASSERT_TRUE(move(slow, *wanted).ok());
+  const auto first = broadcaster_.display(fast.place->displayId())->chain;
+  const auto second = broadcaster_.display(slow.place->displayId())->chain;
+  ASSERT_NE(second, nullptr);
+  EXPECT_NE(second, first);
+  EXPECT_EQ(second->begin(1, now_ns_), 0u) << "the first atlas there needs no other";
+}
+
+TEST_F(SecondRungTest, keepsAReaderToItsBits) {
+  EncodingSpec limited = kAdapting;
+  limited.bits_per_second_max = 80'000'000;
+  Reader fast{.place = watch(limited)};
+  Reader slow{.place = watch(limited), .bytes_per_ms = kSlow};
+  fast_.place = nullptr;
+  slow_.place = nullptr;
+  const auto wanted = wantedWithin(5000, slow, {&fast, &slow});
+  ASSERT_TRUE(wanted.has_value());
+  slow.place->beginWrite(100'000'000, now_ns_);
+  slow.place->endAtlas(now_ns_);
+  ASSERT_TRUE(move(slow, *wanted).ok());
+  EXPECT_FALSE(slow.place->mayBegin(now_ns_ + 5000 * kMs)) << "it got the bits of ten seconds";
+  EXPECT_TRUE(slow.place->mayBegin(now_ns_ + 10'000 * kMs));
+}
+
+TEST_F(SecondRungTest, isNothingForVideoOfOneQuality) {
+  const EncodingSpec fixed = {.color = BandEncoding::kH264, .video_qp = 24};
+  EncodingSpec limited = fixed;
+  limited.bits_per_second_max = 80'000'000;
+  fast_.place = nullptr;
+  slow_.place = nullptr;
+  Reader alone{.place = watch(fixed), .bytes_per_ms = kSlow};
+  Reader fast{.place = watch(limited)};
+  Reader slow{.place = watch(limited), .bytes_per_ms = kSlow};
+  for (; now_ns_ < 20'000 * kMs; now_ns_ += 100 * kMs) {
+    EXPECT_FALSE(alone.place->wantedMove(now_ns_));
+  }
+  alone.place = nullptr;
+  EXPECT_FALSE(wantedWithin(10'000, slow, {&fast, &slow}));
+}
+
+}  // namespace
+}  // namespace viewloom::test::second_rung_test
