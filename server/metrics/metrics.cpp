@@ -38,6 +38,7 @@ const LabelValues kHandOvers = {"decode", "structure", "trace", "grpc", "web"};
 const LabelValues kTransports = {"grpc", "web"};
 const LabelValues kRayAnswers = {"hit", "hit_assumed", "hidden", "outside", "empty"};
 const LabelValues kTraceMethods = {"walk", "sweep"};
+const LabelValues kVideoRungs = {"first", "second"};
 const LabelValues kCertificateChanges = {"taken", "refused"};
 const LabelValues kEngineWorks = {"trace", "piece", "pack", "build"};
 const LabelValues kPayerClasses = {"server", "local", "remote"};
@@ -165,6 +166,10 @@ Metrics::Metrics(ClientNames names)
       coarse_atlases(counter(store_->registry, "viewloom_coarse_atlases_total",
                              "Atlases of H.264 encoded coarser than their viewers asked for, "
                              "because their lines are slow.")),
+      rung_moves(counters<VideoRung>(store_->registry, "viewloom_rung_moves_total",
+                                     "Viewers that moved to the other rung of a video, because "
+                                     "their line is far slower than others', or no longer.",
+                                     "to", kVideoRungs)),
       encoded_bytes(
           counter(store_->registry, "viewloom_encoded_bytes_total", "Bytes of all encoded bands.")),
       rays(counters<RayAnswer>(store_->registry, "viewloom_rays_total",

@@ -12,6 +12,7 @@
 #include "base/memory_use.h"
 #include "base/payer.h"
 #include "base/trace_method.h"
+#include "base/video_rung.h"
 
 namespace prometheus {
 class Counter;
@@ -129,6 +130,7 @@ class Metrics {
   Counter bands_encoded;
   Counter video_pictures;  // of those
   Counter coarse_atlases;
+  Labelled<VideoRung, Counter> rung_moves;  // {to}; of viewers, by the rung that they moved to
   Counter encoded_bytes;
   Labelled<RayAnswer, Counter> rays;          // {answer}; shares are ratios of their rates
   Labelled<HandOver, Counter> replaced;       // {hand_over}; drops, newest wins

@@ -140,6 +140,7 @@ class Broadcaster::Subscription {
   ~Subscription();
   uint64_t displayId() const { return display_id_; }
   uint64_t subscriberId() const { return subscriber_id_; }
+  VideoRung rung() const { return rung_; }
 
   // Notes of what the subscriber's connection takes; see DisplayCoding. Nothing happens where the
   // quality of the display does not adapt.

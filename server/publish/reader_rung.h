@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "base/spell.h"
-#include "display/display_spec.h"
+#include "base/video_rung.h"
 #include "publish/line_fit.h"
 
 namespace viewloom {

@@ -3,14 +3,11 @@
 
 #include <utility>
 
-#include "admission/display_price.h"
-#include "base/str_cat.h"
 #include "messages/eye_poses_from_proto.h"
 #include "messages/wire_message.h"
 #include "publish/eye_intake.h"
 #include "rpc/display_request.h"
 #include "rpc/stream_name.h"
-#include "rpc/watch_seat.h"
 
 namespace viewloom {
 
@@ -104,48 +101,6 @@ void WatchCall::noteProbe(const v1::ClockProbe& probe, int64_t received_ns) {
   advance();
 }
 
-DisplayUse WatchCall::displayUse() const {
-  const DisplaySpec& display = asked_.display();
-  std::string key = strCat(stream_, " ", displayKey(display), encodingKey(asked_.encoding()));
-  // A tracked display is this call's alone.
-  if (eyes_ != nullptr) key += strCat("of ", absl::Hex(reinterpret_cast<uintptr_t>(eyes_.get())));
-  return {.key = std::move(key),
-          .pixels = atlasPixels(display),
-          .rate_hz = pictureRate(display, parts_.directory.rateHz(stream_))};
-}
-
-absl::Status WatchCall::takeSeat(const std::string& field) {
-  const auto self = std::static_pointer_cast<WatchCall>(shared_from_this());
-  fall_outs_ = {};
-  std::unique_ptr<Broadcaster::Subscription> left;
-  std::shared_ptr<Seat> seat;
-  {
-    std::lock_guard lock(mutex_);
-    seat = std::make_shared<Seat>(self, ++seat_number_, field);
-    left = std::move(subscription_);
-    quota_ = nullptr;
-    outbox_.restart(seat);
-    advance();
-  }
-  leave(std::move(left));  // before the new one, so that a change never needs a second place
-  eyes_ = trackOf(asked_.display(), eyes_);
-  auto quota = caller_->holdDisplay(displayUse());
-  VIEWLOOM_RETURN_IF_ERROR(withFieldPrefix(quota.status(), field));
-  auto subscription =
-      parts_.broadcaster.subscribe(stream_, asked_.display(), asked_.encoding(), seat, eyes_);
-  if (!subscription.ok()) return seat->inField(subscription.status());
-  std::lock_guard lock(mutex_);
-  if (ending()) return absl::OkStatus();  // the subscription goes with this scope
-  subscription_ = *std::move(subscription);
-  quota_ = *std::move(quota);
-  parts_.metrics.subscribers[Transport::kGrpc].add(1);
-  return absl::OkStatus();
-}
-
-void WatchCall::leave(std::unique_ptr<Broadcaster::Subscription> subscription) {
-  if (subscription != nullptr) parts_.metrics.subscribers[Transport::kGrpc].add(-1);
-}
-
 absl::Status WatchCall::handleHalfClose() {
   if (stream_.empty())
     return invalidField("open",
@@ -174,40 +129,6 @@ void WatchCall::release() {
     outbox_.close(draining_);
   }
   leave(std::move(left));
-}
-
-void WatchCall::begin(uint64_t seat_number, GrowingAtlasPtr atlas) {
-  const ActiveDisplayPtr display = parts_.broadcaster.display(atlas->atlas().display_id);
-  if (!display) return;
-  std::lock_guard lock(mutex_);
-  if (seat_number != seat_number_ || ending()) return;
-  outbox_.begin(std::move(atlas), display->subscriber_count);
-  advance();
-}
-
-void WatchCall::noteGrowth(uint64_t seat_number) {
-  std::lock_guard lock(mutex_);
-  if (seat_number == seat_number_) advance();
-}
-
-void WatchCall::offer(uint64_t seat_number, AtlasPtr atlas) {
-  std::lock_guard lock(mutex_);
-  if (seat_number != seat_number_ || ending()) return;
-  if (quota_) quota_->noteAtlas(atlas->sequence, atlas->layout->size_px.area());
-  outbox_.offer(std::move(atlas));
-  advance();
-}
-
-void WatchCall::endSeat(uint64_t seat_number, const absl::Status& status) {
-  bool half_closed = false;
-  {
-    std::lock_guard lock(mutex_);
-    if (seat_number != seat_number_) return;
-    draining_ = status.ok();
-    half_closed = halfClosed();
-  }
-  const bool drained = status.ok() && !half_closed;
-  end(drained ? absl::UnavailableError(kDrainMessage) : status);
 }
 
 void WatchCall::endUnlessWatching() {
@@ -252,23 +173,10 @@ std::optional<grpc::ByteBuffer> WatchCall::takeHeartbeat() {
   return bytesFromMessage(response);
 }
 
-absl::Status WatchCall::leaveChainIfLost() {
-  const std::unique_lock seat_lock(seat_mutex_, std::try_to_lock);
-  if (!seat_lock.owns_lock()) return absl::OkStatus();  // a message is handled; the next tick looks
-  {
-    std::lock_guard lock(mutex_);
-    const uint64_t count = outbox_.fallOutCount();
-    if (!subscription_ || ending() || !fall_outs_.areTooMany(count, parts_.clock.nowNs())) {
-      return absl::OkStatus();
-    }
-  }
-  VIEWLOOM_RETURN_IF_ERROR(asked_.predictWithinAtlas());
-  return takeSeat("open.display");
-}
-
 void WatchCall::tick() {
   if (const absl::Status status = caller_.tick(); !status.ok()) end(status);
   if (const absl::Status status = leaveChainIfLost(); !status.ok()) end(status);
+  if (const absl::Status status = followLine(); !status.ok()) end(status);
   std::lock_guard lock(mutex_);
   if (ending()) return;
   if (wants_heartbeats_ && told_.reaches(kHeartbeatTicks)) heartbeat_is_due_ = true;

@@ -52,8 +52,8 @@ class WatchCall final : public BidiCall {
   // UNAVAILABLE for a call that was never opened; the broadcaster ends the others.
   void endUnlessWatching();
   // To be called every kTick: sends heartbeats to a client that wants them, ends the call of a
-  // client whose identity does not hold any more, and moves one that keeps falling out of chained
-  // video to atlases that need no other.
+  // client whose identity does not hold any more, moves one that keeps falling out of chained video
+  // to atlases that need no other, and one whose line is slow to the second rung of its display.
   void tick();
 
  private:
@@ -74,9 +74,13 @@ class WatchCall final : public BidiCall {
   absl::Status handleEyePoses(const v1::EyePoses& request, int64_t received_ns);
   void notePresented(const v1::Presented& presented);
   void noteProbe(const v1::ClockProbe& probe, int64_t received_ns);
-  DisplayUse displayUse() const;
+  DisplayUse displayUse(const EncodingSpec& encoding) const;
   absl::Status takeSeat(const std::string& field);
   absl::Status leaveChainIfLost();
+  // Moves to the other rung of the display where the line asks for that, and stays where it cannot.
+  // Comes back where the second rung has ended; errors as of takeSeat().
+  absl::Status followLine();
+  void moveToRung(const RungMove& move, std::shared_ptr<Seat> seat);
 
   void leave(std::unique_ptr<Broadcaster::Subscription> subscription);
   void begin(uint64_t seat_number, GrowingAtlasPtr atlas);
@@ -103,7 +107,8 @@ class WatchCall final : public BidiCall {
   std::unique_ptr<Broadcaster::Subscription> subscription_;
   QuotaPartPtr quota_;  // of its display
   uint64_t seat_number_ = 0;
-  bool draining_ = false;  // what waits is still written
+  bool is_rung_lost_ = false;  // the second rung has ended; the first may go on
+  bool draining_ = false;      // what waits is still written
   AtlasOutbox outbox_;
   ClockReplies clock_replies_;
   bool replied_last_ = false;  // the last message written is one of them

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "base/status.h"
+#include "base/video_rung.h"
 #include "display/display_kinds.h"
 #include "display/effects.h"
 #include "display/fields.h"
@@ -79,9 +80,6 @@ std::optional<DisplaySpec> withFocalDistance(DisplaySpec spec, double focal_dist
 enum class BandEncoding : uint8_t { kJpeg, kJpegPlanes, kZstd, kRaw, kH264, kCompactDepth };
 inline constexpr size_t kBandEncodingCount = 6;
 enum class Chroma : uint8_t { k420, k444 };
-// Qualities in which a display is coded at a time. Viewers begin on the first rung; those whose
-// lines are far slower may be moved to the second.
-enum class VideoRung : uint8_t { kFirst, kSecond, kCount };
 
 // Packing of the atlas.
 struct EncodingSpec {
