@@ -6,7 +6,6 @@
 #include "admission/request_boundary.h"
 #include "messages/message_from_json.h"
 #include "viewloom/v1/web_socket.pb.h"
-#include "web/admission.h"
 #include "web/atlas_message.h"
 #include "web/close_reason.h"
 #include "web/http_reply.h"
@@ -86,36 +85,6 @@ absl::Status Viewer::open() {
   const absl::StatusOr<AskedDisplay> asked = askedDisplay(parameters_);
   VIEWLOOM_RETURN_IF_ERROR(asked.status());
   return inParameters(subscribe(*asked), parameters_);
-}
-
-absl::Status Viewer::subscribe(const AskedDisplay& asked) {
-  const absl::StatusOr<WatchRequest> request = makeWatchRequest(asked);
-  VIEWLOOM_RETURN_IF_ERROR(request.status());
-  VIEWLOOM_RETURN_IF_ERROR(checkStream(request->stream, caller_, context_.streams));
-  absl::StatusOr<QuotaPartPtr> quota =
-      holdDisplay(context_, caller_, *request, inbox_ ? inbox_->quota() : nullptr, this);
-  VIEWLOOM_RETURN_IF_ERROR(quota.status());
-  const std::weak_ptr<Viewer> viewer = weak_from_this();
-  const auto executor = socket_.get_executor();
-  auto inbox = std::make_shared<AtlasInbox>(
-      context_.clock, context_.metrics.replaced[HandOver::kWeb],
-      [executor, viewer] {
-        net::post(executor, [viewer] {
-          if (const auto self = viewer.lock()) self->wake();
-        });
-      },
-      identity_, *std::move(quota));
-  EyeTrackPtr track = eyes_.trackFor(request->display);
-  auto subscription = context_.broadcaster.subscribe(
-      request->stream, request->display, request->encoding, inbox, track, subscription_.get());
-  VIEWLOOM_RETURN_IF_ERROR(subscription.status());
-  if (inbox_) dropped_before_ += inbox_->replacedCount();
-  inbox_ = std::move(inbox);
-  fall_outs_ = {};
-  subscription_ = *std::move(subscription);
-  eyes_.watch(request->display, subscription_->displayId(), std::move(track));
-  asked_ = asked;
-  return absl::OkStatus();
 }
 
 net::awaitable<void> Viewer::readMessages() {
@@ -219,6 +188,7 @@ net::awaitable<void> Viewer::writeUntilEnd() {
       continue;
     }
     leaveChainIfLost();
+    followLine();
     std::optional<absl::Status> ended = failure_ ? failure_ : inbox_->ended();
     if (absl::Status status = caller_.recheck(); !ended && !status.ok()) ended = std::move(status);
     if (leaving_) ended = absl::OkStatus();
@@ -239,14 +209,6 @@ net::awaitable<void> Viewer::writeUntilEnd() {
     awake_.expires_after(kRecheckInterval);
     co_await awake_.async_wait(into(woken));
   }
-}
-
-void Viewer::leaveChainIfLost() {
-  if (!fall_outs_.areTooMany(inbox_->fallOutCount(), context_.clock.nowNs())) return;
-  AskedDisplay changed = asked_;
-  changed.encoding.set_prediction(v1::PREDICTION_WITHIN_ATLAS);
-  // Where there is no room for another display, it goes on as it is.
-  if (!subscribe(changed).ok()) fall_outs_.forgive();
 }
 
 void Viewer::beginOfWrite() {

@@ -52,6 +52,10 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
 
   absl::Status open();
   absl::Status subscribe(const AskedDisplay& asked);
+  std::shared_ptr<AtlasInbox> makeInbox(QuotaPartPtr quota);
+  // The new place takes the place of the one before.
+  void sit(std::shared_ptr<AtlasInbox> inbox,
+           std::unique_ptr<Broadcaster::Subscription> subscription);
   net::awaitable<void> readMessages();
   // Waits until the next message may be read.
   net::awaitable<void> keepPace(size_t message_bytes, ErrorCode& error);
@@ -69,6 +73,10 @@ class Viewer final : public LiveReader, public std::enable_shared_from_this<View
   void noteShown(uint64_t delivery);
   // Moves a client that keeps falling out of chained video to atlases that need no other.
   void leaveChainIfLost();
+  // Moves to the other rung of the display where the line asks for that, and stays where it cannot.
+  // Comes back where the second rung has ended.
+  void followLine();
+  void moveToRung(const RungMove& move);
   void wake() { awake_.cancel(); }
 
   WebContext& context_;
