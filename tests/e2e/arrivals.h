@@ -15,6 +15,7 @@ struct Arrival {
   uint64_t bytes = 0;
   uint64_t frame_number = 0;
   uint32_t qp = 0;
+  uint32_t rung = 0;
 };
 
 // Those from a time on, and before another.

@@ -43,11 +43,19 @@ class SeenAtlases {
     return all_;
   }
   bool waitForQp(uint32_t qp, seconds patience) {
-    std::unique_lock lock(mutex_);
-    return came_.wait_for(lock, patience, [&] { return !all_.empty() && all_.back().qp == qp; });
+    return waitFor(patience, [&](const Arrival& newest) { return newest.qp == qp; });
+  }
+  bool waitForRung(uint32_t rung, seconds patience) {
+    return waitFor(patience, [&](const Arrival& newest) { return newest.rung == rung; });
   }
 
  private:
+  template <typename Predicate>
+  bool waitFor(seconds patience, const Predicate& is_wanted) {
+    std::unique_lock lock(mutex_);
+    return came_.wait_for(lock, patience, [&] { return !all_.empty() && is_wanted(all_.back()); });
+  }
+
   mutable std::mutex mutex_;
   std::condition_variable came_;
   std::vector<Arrival> all_;
@@ -82,25 +90,27 @@ class MovingScene {
 
 class ServiceSlowLineTest : public ServiceFixture {
  protected:
-  // Fine video of which each atlas has some hundred kilobytes.
-  static v1::OpenDisplay fineVideo() {
-    v1::OpenDisplay open = openQuilt("scene", {1600, 1600});
+  // Fine video of which each atlas has some hundred kilobytes, or fewer for a smaller quilt.
+  static v1::OpenDisplay fineVideo(SizePx size_px = {1600, 1600}) {
+    v1::OpenDisplay open = openQuilt("scene", size_px);
     open.mutable_encoding()->set_color(v1::BAND_ENCODING_H264);
     open.mutable_encoding()->set_video_qp(kFinestQp);
     open.mutable_encoding()->set_bits_per_second_max(1'000'000'000);
     return open;
   }
 
-  WatcherCallbacks noteAll() {
+  // What comes is noted there.
+  WatcherCallbacks noteIn(SeenAtlases& seen) const {
     return {.on_layout = {},
             .on_atlas =
-                [this](const Atlas& atlas) {
+                [this, &seen](const Atlas& atlas) {
                   const int64_t now_ns = clock_.nowNs();
-                  seen_.add({.at_ns = now_ns,
-                             .latency_ns = now_ns - atlas.header.capture_time_ns(),
-                             .bytes = bytesOf(atlas),
-                             .frame_number = atlas.header.frame_number(),
-                             .qp = atlas.header.video_qp()});
+                  seen.add({.at_ns = now_ns,
+                            .latency_ns = now_ns - atlas.header.capture_time_ns(),
+                            .bytes = bytesOf(atlas),
+                            .frame_number = atlas.header.frame_number(),
+                            .qp = atlas.header.video_qp(),
+                            .rung = atlas.layout->video_rung()});
                 },
             .on_connection = {},
             .on_message = {}};
@@ -126,7 +136,7 @@ class ServiceSlowLineTest : public ServiceFixture {
 
 TEST_F(ServiceSlowLineTest, followsALineDownAndUp) {
   SlowLine line(service_->grpcAddress(), 1000);
-  Watcher watcher(makeChannel(line.address()), fineVideo(), noteAll());
+  Watcher watcher(makeChannel(line.address()), fineVideo(), noteIn(seen_));
   std::optional<MovingScene> scene(std::in_place, service_->grpcAddress(), clock_);
   ASSERT_TRUE(seen_.waitForQp(kFinestQp, kGiveUpAfter));
   const int64_t fast_ns = after(seconds(1));
@@ -156,9 +166,45 @@ TEST_F(ServiceSlowLineTest, followsALineDownAndUp) {
   EXPECT_EQ(watcher.counts().reconnects, 0u);
 }
 
+// The quilt is small, so that two cores have time for a second encoding.
+TEST_F(ServiceSlowLineTest, movesASlowReaderToASecondRungAndBack) {
+  constexpr SizePx kSmall_px = {800, 800};
+  SlowLine line(service_->grpcAddress(), 1000);
+  SeenAtlases slow;
+  Watcher near(makeChannel(service_->grpcAddress()), fineVideo(kSmall_px), noteIn(seen_));
+  Watcher far(makeChannel(line.address()), fineVideo(kSmall_px), noteIn(slow));
+  const MovingScene scene(service_->grpcAddress(), clock_);
+  ASSERT_TRUE(seen_.waitForQp(kFinestQp, kGiveUpAfter));
+  ASSERT_TRUE(slow.waitForRung(1, kGiveUpAfter));
+  const int64_t both_ns = after(seconds(1));
+  const int64_t slow_ns = after(seconds(3));
+  const std::vector<Arrival> before = between(seen_.all(), both_ns, slow_ns);
+  ASSERT_GT(before.size(), 4u);
+  const double taken_mbit = double(before.back().bytes) * 8e-6 * double(before.size()) / 3;
+  line.setSpeed(taken_mbit / 4);
+  ASSERT_TRUE(slow.waitForRung(2, kGiveUpAfter));
+  const int64_t moved_ns = after(seconds(2));
+  const int64_t again_ns = after(seconds(3));
+  const std::vector<Arrival> coarse = between(slow.all(), moved_ns, again_ns);
+  const std::vector<Arrival> fine = between(seen_.all(), moved_ns, again_ns);
+  std::printf("second rung: %zu atlases of %zu, QP %u beside %u\n", coarse.size(), fine.size(),
+              coarse.empty() ? 0 : coarse.back().qp, fine.empty() ? 0 : fine.back().qp);
+  ASSERT_FALSE(coarse.empty() || fine.empty());
+  EXPECT_TRUE(
+      std::ranges::all_of(coarse, [](const Arrival& arrival) { return arrival.rung == 2; }));
+  EXPECT_TRUE(std::ranges::all_of(fine, [](const Arrival& arrival) { return arrival.rung == 1; }));
+  EXPECT_EQ(fine.back().qp, kFinestQp);
+  EXPECT_GT(coarse.back().qp, kFinestQp + 4);
+  EXPECT_GT(2 * coarse.size(), fine.size()) << "on the first rung it got a quarter of them";
+  EXPECT_GE(service_->metrics().rung_moves[VideoRung::kSecond].value(), 1);
+  line.setSpeed(1000);
+  EXPECT_TRUE(slow.waitForRung(1, kGiveUpAfter));
+  EXPECT_EQ(far.counts().reconnects + near.counts().reconnects, 0u);
+}
+
 TEST_F(ServiceSlowLineTest, sendsTheFinestAtlasOnceFramesStand) {
   SlowLine line(service_->grpcAddress(), 1);
-  Watcher watcher(makeChannel(line.address()), fineVideo(), noteAll());
+  Watcher watcher(makeChannel(line.address()), fineVideo(), noteIn(seen_));
   {
     const MovingScene scene(service_->grpcAddress(), clock_);
     ASSERT_TRUE(seen_.waitForQp(kFinestQp + 16, kGiveUpAfter));
