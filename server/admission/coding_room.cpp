@@ -16,6 +16,7 @@ constexpr int64_t kFull_ns = 3'000'000'000;
 }  // namespace
 
 void CodingRoom::look(int64_t now_ns) {
+  if (core_count_ == 0) return;
   const int64_t used_ns = used_ns_();
   std::lock_guard lock(mutex_);
   looks_.push_back({now_ns, used_ns});
@@ -24,7 +25,7 @@ void CodingRoom::look(int64_t now_ns) {
 }
 
 std::optional<double> CodingRoom::load() const {
-  if (core_count_ == 0 || looks_.empty()) return std::nullopt;
+  if (looks_.empty()) return std::nullopt;
   const int64_t time_ns = looks_.back().at_ns - looks_.front().at_ns;
   if (time_ns < kKnownLoad_ns) return std::nullopt;
   const int64_t used_ns = looks_.back().used_ns - looks_.front().used_ns;

@@ -99,7 +99,7 @@ class ServiceSlowLineTest : public ServiceFixture {
     return open;
   }
 
-  // What comes is noted there.
+  // Notes the atlases that come in `seen`, which outlives the watcher.
   WatcherCallbacks noteIn(SeenAtlases& seen) const {
     return {.on_layout = {},
             .on_atlas =
