@@ -62,7 +62,7 @@ function milliseconds(value) {
 // With the quantisation that the server has chosen, and its second rung for slow lines.
 function videoText({video_qp, reference_sequence, encoding}) {
   const chosen = video_qp ? `, QP ${video_qp}` : '';
-  const rung = encoding.video_rung > 1 ? ', second rung' : '';
+  const rung = encoding?.video_rung > 1 ? ', second rung' : '';
   return ` of H.264${chosen}${rung}${reference_sequence ? ', chained' : ''}`;
 }
 
