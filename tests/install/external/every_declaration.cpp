@@ -7,6 +7,7 @@
 #include <viewloom/byte_pool.h>
 #include <viewloom/catalog.h>
 #include <viewloom/channel.h>
+#include <viewloom/color_decoder.h>
 #include <viewloom/color_video.h>
 #include <viewloom/compress_frame.h>
 #include <viewloom/credentials.h>
@@ -49,14 +50,14 @@ bool methodsAreThere() {
   return areThere(&Atlas::byteCount, &AtlasAssembler::restart, &AtlasAssembler::add,
                   &BytePool::take, &BytePool::takeAsLeft, &BytePool::takeUncleared,
                   &Catalog::listStreams, &Catalog::listDisplays, &Catalog::listPresets,
-                  &Catalog::getServerInfo, &Catalog::adviseSource, &FrameLatency::note,
-                  &FrameLatency::standing_s, &Publisher::offer, &Publisher::isWaiting,
-                  &Publisher::close, &Publisher::finish, &Publisher::ended, &Publisher::waitEnded,
-                  &Publisher::counts, &Backoff::nextDelayNs, &Backoff::reset, &RetryLoop::run,
-                  &RetryLoop::sleepUntilStopped, &ServerClock::add, &ServerClock::offset,
-                  &Watcher::change, &Watcher::sendEyePoses, &Watcher::probeClock,
-                  &Watcher::serverClock, &Watcher::reportPresented, &Watcher::stop, &Watcher::ended,
-                  &Watcher::waitEnded, &Watcher::counts);
+                  &Catalog::getServerInfo, &Catalog::adviseSource, &ColorDecoder::decode,
+                  &FrameLatency::note, &FrameLatency::standing_s, &Publisher::offer,
+                  &Publisher::isWaiting, &Publisher::close, &Publisher::finish, &Publisher::ended,
+                  &Publisher::waitEnded, &Publisher::counts, &Backoff::nextDelayNs, &Backoff::reset,
+                  &RetryLoop::run, &RetryLoop::sleepUntilStopped, &ServerClock::add,
+                  &ServerClock::offset, &Watcher::change, &Watcher::sendEyePoses,
+                  &Watcher::probeClock, &Watcher::serverClock, &Watcher::reportPresented,
+                  &Watcher::stop, &Watcher::ended, &Watcher::waitEnded, &Watcher::counts);
 }
 
 // Nobody listens at this Unix socket.
@@ -66,6 +67,7 @@ bool objectsAreMade() {
   AtlasAssembler assembler;
   const Backoff backoff({}, makeRandom());
   const RetryLoop loop({}, {});
+  const ColorDecoder decoder;
   Publisher publisher(channel, {.stream = "external"}, {});
   Watcher watcher(channel, v1::OpenDisplay(), {});
   { const ClockFollower follower(watcher); }
