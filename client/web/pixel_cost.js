@@ -20,6 +20,10 @@ export class PixelCost {
     const times = [...(isNew ? [] : before.times), ms].slice(-kNewest);
     this.#sizes.delete(pixels);  // so that the newest is the last
     this.#sizes.set(pixels, {times, time_ms: now_ms});
+    for (const [size, {time_ms}] of this.#sizes) {  // the oldest first
+      if (now_ms - time_ms <= kRemembered_ms) break;
+      this.#sizes.delete(size);
+    }
   }
 
   // How often a picture of this size was measured lately.

@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 
 import {EyeSize} from './eye_size.js';
+import {PixelCost} from './pixel_cost.js';
 
 const kRoom = {width: 1280, height: 720};
 const kTick_ms = 16;
@@ -245,4 +246,11 @@ test('a scene of few frames is sharp within a second of its last one', () => {
     const sharp = shown.find(({time_ms, height}) => time_ms >= last_ms && height === 720);
     assert.ok(sharp.time_ms - last_ms <= 1000 + 300, `${frames_hz} frames a second`);
   }
+});
+
+test('sizes of a canvas that is long gone are forgotten', () => {
+  const cost = new PixelCost();
+  for (let pixels = 1; pixels <= 100; ++pixels) cost.note(pixels, 10, pixels);
+  cost.note(1000, 10, 60_050);
+  assert.deepEqual([49, 50, 100, 1000].map((pixels) => cost.count(pixels)), [0, 1, 1, 1]);
 });
