@@ -27,6 +27,14 @@ AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
   return output;
 }
 
+std::vector<ActiveDisplayPtr> onSecondRung(const std::vector<AtlasOutput>& outputs) {
+  std::vector<ActiveDisplayPtr> displays;
+  for (const AtlasOutput& output : outputs) {
+    if (output.display->encoding.rung == VideoRung::kSecond) displays.push_back(output.display);
+  }
+  return displays;
+}
+
 }  // namespace
 
 size_t AtlasOutput::firstBandOf(uint32_t rank) const {
@@ -66,7 +74,7 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
   claim.is_tracked = isTracked();
 }
 
-void AtlasRun::reserveVideo(MemoryBudget& memory) {
+std::vector<ActiveDisplayPtr> AtlasRun::reserveVideo(MemoryBudget& memory) {
   uint64_t bytes = 0;
   for (const AtlasOutput& output : outputs) {
     if (!output.video) continue;
@@ -74,16 +82,19 @@ void AtlasRun::reserveVideo(MemoryBudget& memory) {
     const VideoStack& stack = *picture->layout->stack;
     bytes += isChained() ? videoPicturesBytes(stack) : videoAtlasBytes(stack);
   }
-  if (bytes == 0) return;
+  if (bytes == 0) return {};
   std::optional<Reservation> reserved =
       memory.tryReserve({.use = MemoryUse::kAtlases, .bytes = bytes});
   if (!reserved) {
+    std::vector<ActiveDisplayPtr> favours = onSecondRung(outputs);
+    if (!favours.empty()) return favours;
     throw EngineOutOfMemory(
         "the server's memory.budget has no room left to code a video of this size; choose a "
         "smaller display, color as JPEG, or try again later");
   }
   video_memory_ = *std::move(reserved);
   is_last_of_video_ = memory.leftFor("") < bytes;
+  return {};
 }
 
 void AtlasRun::noteOlder() {

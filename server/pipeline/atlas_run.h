@@ -60,8 +60,10 @@ class AtlasRun {
   // those of a video that has an atlas on its way: pictures that wait to be coded take memory.
   // Pictures of chained video refer to those of the atlas before.
   bool isWaitedFor() const { return isTracked() || isChained() || job.tick || is_last_of_video_; }
-  // Takes the memory of its video, if it has one, before it begins. Throws EngineOutOfMemory.
-  void reserveVideo(MemoryBudget& memory);
+  // Takes the memory of its video, if it has one, before it begins. Where there is too little, it
+  // takes none, and returns those of its displays that are on a second rung: they are to end, and
+  // the others may have room. Throws EngineOutOfMemory where none is.
+  [[nodiscard]] std::vector<ActiveDisplayPtr> reserveVideo(MemoryBudget& memory);
   // An older atlas of the picture is on its way. To be called before the making begins.
   void noteOlder();
   // All its pictures are coded.

@@ -2,6 +2,7 @@
 #include "pipeline/picture_loop.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "base/log.h"
@@ -141,9 +142,7 @@ bool PictureLoop::hasRoomForEyes(const Payers& payers) const {
 }
 
 void PictureLoop::beginDueJobs() {
-  const JobBoard::HasRoom has_room = [this](const Payers& payers) {
-    return hasRoomForEyes(payers);
-  };
+  const JobBoard::HasRoom has_room = std::bind_front(&PictureLoop::hasRoomForEyes, this);
   while (auto job = desk_.board.begin(rank_, begun_.firstClaim(), has_room)) beginOrFinish(*job);
 }
 
@@ -188,7 +187,11 @@ bool PictureLoop::begin(AtlasJob& job) {
     putBack(std::move(run->job));
     return true;
   }
-  run->reserveVideo(links_.memory);
+  if (const auto ended = run->reserveVideo(links_.memory); !ended.empty()) {
+    refuse(ended, absl::ResourceExhaustedError("no memory is left for a second rung"));
+    putBack(std::move(run->job));
+    return false;
+  }
   desk_.served.note(run->job, unserved);
   for (const ActiveDisplayPtr& display : displays) {
     links_.broadcaster.noteLayout(display->id, (*picture)->layout);
@@ -258,9 +261,7 @@ void PictureLoop::prepareForm(AtlasJob job, ResidentPtr structure,
 
 void PictureLoop::refuse(const std::vector<ActiveDisplayPtr>& displays,
                          const absl::Status& status) const {
-  for (const ActiveDisplayPtr& display : displays) {
-    links_.broadcaster.refuse(display->id, status);
-  }
+  for (const auto& display : displays) links_.broadcaster.refuse(display->id, status);
 }
 
 // The eyes as they are when its first rays go, which may have waited for room. Those that cannot be

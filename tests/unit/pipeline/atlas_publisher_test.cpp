@@ -82,7 +82,7 @@ TEST_F(AtlasPublisherTest, tellsAVideoThatAnOlderOneIsOnItsWay) {
   MemoryBudget budget(100'000'000);
   const auto begin = [&](const std::string& picture_key) {
     AtlasRunPtr run = videoOf(picture_key);
-    run->reserveVideo(budget);
+    EXPECT_TRUE(run->reserveVideo(budget).empty());
     publisher_.begin(run);
     return run;
   };

@@ -14,7 +14,7 @@ namespace {
 
 const VideoStack kStack = {.view_count = 3, .picture_count = 3, .cell_px = {64, 48}};
 
-AtlasRun runOf(BandEncoding color) {
+AtlasRun runOf(BandEncoding color, const std::vector<VideoRung>& rungs = {VideoRung::kFirst}) {
   auto layout = std::make_shared<AtlasLayout>();
   layout->size_px = {64, 3 * 48};
   layout->tile_size_px = {64, 48};
@@ -22,26 +22,31 @@ AtlasRun runOf(BandEncoding color) {
   layout->stack = kStack;
   auto picture = std::make_shared<TraceJob>();
   picture->layout = std::move(layout);
-  auto display = std::make_shared<ActiveDisplay>();
-  display->encoding.color = color;
+  std::vector<ActiveDisplayPtr> displays;
+  for (const VideoRung rung : rungs) {
+    auto display = std::make_shared<ActiveDisplay>();
+    display->encoding.color = color;
+    display->encoding.rung = rung;
+    displays.push_back(std::move(display));
+  }
   return {AtlasJob{.picture_key = "views", .structure = std::make_shared<ResidentStructure>()},
-          std::move(picture), Pose{}, std::vector<ActiveDisplayPtr>{std::move(display)}};
+          std::move(picture), Pose{}, std::move(displays)};
 }
 
 TEST(AtlasRun, holdsTheMemoryOfItsVideo) {
   MemoryBudget budget(100'000'000);
   {
     AtlasRun run = runOf(BandEncoding::kH264);
-    run.reserveVideo(budget);
+    EXPECT_TRUE(run.reserveVideo(budget).empty());
     EXPECT_EQ(budget.reservedBytes(MemoryUse::kAtlases), videoAtlasBytes(kStack));
     EXPECT_FALSE(run.isWaitedFor());
     run.releaseVideo();
     EXPECT_EQ(budget.reservedBytes(MemoryUse::kAtlases), 0U);
-    run.reserveVideo(budget);
+    EXPECT_TRUE(run.reserveVideo(budget).empty());
   }
   EXPECT_EQ(budget.reservedBytes(MemoryUse::kAtlases), 0U) << "given up";
   AtlasRun stills = runOf(BandEncoding::kJpeg);
-  stills.reserveVideo(budget);
+  EXPECT_TRUE(stills.reserveVideo(budget).empty());
   stills.noteOlder();
   EXPECT_EQ(budget.reservedBytes(MemoryUse::kAtlases), 0U);
   EXPECT_FALSE(stills.isWaitedFor());
@@ -51,7 +56,7 @@ TEST(AtlasRun, holdsTheMemoryOfItsVideo) {
 TEST(AtlasRun, isWaitedForBehindAnotherOfItsVideo) {
   MemoryBudget budget(100'000'000);
   AtlasRun run = runOf(BandEncoding::kH264);
-  run.reserveVideo(budget);
+  EXPECT_TRUE(run.reserveVideo(budget).empty());
   EXPECT_FALSE(run.isWaitedFor());
   run.noteOlder();
   EXPECT_TRUE(run.isWaitedFor());
@@ -60,10 +65,24 @@ TEST(AtlasRun, isWaitedForBehindAnotherOfItsVideo) {
 TEST(AtlasRun, isWaitedForWhereNoOtherFits) {
   MemoryBudget budget(videoAtlasBytes(kStack) * 3 / 2);
   AtlasRun run = runOf(BandEncoding::kH264);
-  run.reserveVideo(budget);
+  EXPECT_TRUE(run.reserveVideo(budget).empty());
   EXPECT_TRUE(run.isWaitedFor());
   AtlasRun refused = runOf(BandEncoding::kH264);
-  EXPECT_THROW(refused.reserveVideo(budget), EngineOutOfMemory);
+  EXPECT_THROW(static_cast<void>(refused.reserveVideo(budget)), EngineOutOfMemory);
+}
+
+// A second rung is a favour: those on the first are not to pay for it.
+TEST(AtlasRun, givesUpASecondRungWhereMemoryIsShort) {
+  MemoryBudget budget(videoAtlasBytes(kStack) * 3 / 2);
+  AtlasRun both = runOf(BandEncoding::kH264, {VideoRung::kFirst, VideoRung::kSecond});
+  const std::vector<ActiveDisplayPtr> ended = both.reserveVideo(budget);
+  ASSERT_EQ(ended.size(), 1U);
+  EXPECT_EQ(ended.front(), both.outputs.back().display);
+  EXPECT_EQ(budget.reservedBytes(MemoryUse::kAtlases), 0U);
+  AtlasRun first = runOf(BandEncoding::kH264);
+  EXPECT_TRUE(first.reserveVideo(budget).empty());
+  AtlasRun second = runOf(BandEncoding::kH264, {VideoRung::kSecond});
+  EXPECT_EQ(second.reserveVideo(budget).size(), 1U) << "it ends no display of the first";
 }
 
 }  // namespace
