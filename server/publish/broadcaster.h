@@ -80,9 +80,10 @@ class Broadcaster {
                                                           const Subscription* replaced = nullptr);
 
   // Takes the place that Subscription::wantedMove() asks for. It is another display of the same
-  // picture, whose sequence is its own. `subscriber` is told of what begins from now on. The place
-  // before is left as the new one is taken, and stays where that is refused. RESOURCE_EXHAUSTED
-  // where no processor time is left for a second encoding; others as above.
+  // picture, whose sequence is its own. `subscriber` is told as a joiner is, but waits for an atlas
+  // that needs no other. The place before is left as the new one is taken, and stays where that is
+  // refused. RESOURCE_EXHAUSTED where no processor time is left for a second encoding; others as
+  // above.
   absl::StatusOr<std::unique_ptr<Subscription>> moveToRung(
       const RungMove& move, const std::shared_ptr<Subscriber>& subscriber, int64_t now_ns);
 

@@ -80,6 +80,13 @@ absl::StatusOr<Broadcaster::State::Joined> Broadcaster::State::take(
   }
 }
 
+void Broadcaster::State::tell(const Joined& joined) const {
+  if (joined.newest == nullptr) announce(joined.display->stream);
+  if (joined.newest != nullptr && !joined.isOutOfChain()) joined.member->offer(joined.newest);
+  if (!joined.left.empty()) announce(joined.left);
+  if (joined.growing != nullptr) joined.member->begin(joined.growing);
+}
+
 std::shared_ptr<DisplayCoding> Broadcaster::State::otherCoding(uint64_t display_id) {
   std::lock_guard lock(mutex);
   const WatchedDisplay* const found = displays.find(display_id);
@@ -123,18 +130,16 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
   VIEWLOOM_RETURN_IF_ERROR(joined.status());
   auto subscription =
       std::make_unique<Subscription>(state_, *joined->display, joined->member->id());
-  if (joined->newest != nullptr && joined->newest->reference_sequence == 0) {
-    joined->member->offer(joined->newest);
-  } else {
-    if (joined->newest != nullptr) joined->display->chain->wantAtOnce();
+  if (joined->isOutOfChain()) {
+    joined->display->chain->wantAtOnce();
     state_->announce(stream);
   }
-  if (!joined->left.empty()) state_->announce(joined->left);
-  if (joined->growing != nullptr) joined->member->begin(joined->growing);
+  state_->tell(*joined);
   return subscription;
 }
 
-// A newcomer has no use for atlases of chained video that refer to others.
+// Atlases on their way to the viewer are lost, which it may have needed: frames may stand from now
+// on. One that needs no other is no hurry: where frames stand, remakeStanding() sees to it.
 absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::moveToRung(
     const RungMove& move, const std::shared_ptr<Subscriber>& subscriber, int64_t now_ns) {
   const ActiveDisplayPtr before = display(move.display_id);
@@ -154,8 +159,8 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::moveToRu
   VIEWLOOM_RETURN_IF_ERROR(joined.status());
   auto subscription =
       std::make_unique<Subscription>(state_, *joined->display, joined->member->id(), line);
-  subscription->wantSelfContained(now_ns);
-  if (!joined->left.empty()) state_->announce(joined->left);
+  if (joined->isOutOfChain()) joined->display->chain->want();
+  state_->tell(*joined);
   return subscription;
 }
 

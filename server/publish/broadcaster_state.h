@@ -39,6 +39,9 @@ struct Broadcaster::State {
     AtlasPtr newest;
     GrowingAtlasPtr growing;
     std::string left;  // stream of the display that has gone with the place left; else empty
+
+    // The newest atlas refers to others, which the viewer has not got.
+    bool isOutOfChain() const { return newest && newest->reference_sequence != 0; }
   };
   // Joins the display with this key, or opens it. Errors as of subscribe().
   absl::StatusOr<Joined> take(const ActiveDisplay& display, const std::string& key,
@@ -49,6 +52,8 @@ struct Broadcaster::State {
   absl::StatusOr<std::optional<Joined>> join(const ActiveDisplay& display, const std::string& key,
                                              const std::shared_ptr<Subscriber>& subscriber,
                                              Seat& seat, const WatcherPlace& left);
+  // Offers what is there; has an atlas made where there is none.
+  void tell(const Joined& joined) const;
   // Coding of the other rung of a display; nullptr = nobody is on that.
   std::shared_ptr<DisplayCoding> otherCoding(uint64_t display_id);
   // OK where the processors have time to code the display on another rung, or do so already.

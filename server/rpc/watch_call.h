@@ -86,6 +86,8 @@ class WatchCall final : public BidiCall {
   void begin(uint64_t seat_number, GrowingAtlasPtr atlas);
   void noteGrowth(uint64_t seat_number);
   void offer(uint64_t seat_number, AtlasPtr atlas);
+  // A whole atlas waits to be sent.
+  void keep(AtlasPtr atlas);
   void endSeat(uint64_t seat_number, const absl::Status& status);
   std::optional<grpc::ByteBuffer> takeOfAtlas();
   std::optional<grpc::ByteBuffer> takeReply();

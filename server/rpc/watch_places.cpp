@@ -110,6 +110,9 @@ void WatchCall::moveToRung(const RungMove& move, std::shared_ptr<Seat> seat) {
   is_rung_lost_ = parts_.broadcaster.display(subscription_->displayId()) == nullptr;
   outbox_.restart(std::move(seat));
   parts_.metrics.rung_moves[move.to].add();
+  // Nor was an atlas that came before this.
+  const AtlasPtr newest = parts_.broadcaster.newest(subscription_->displayId());
+  if (newest && newest->reference_sequence == 0) keep(newest);
   advance();
 }
 
@@ -130,9 +133,13 @@ void WatchCall::noteGrowth(uint64_t seat_number) {
 void WatchCall::offer(uint64_t seat_number, AtlasPtr atlas) {
   std::lock_guard lock(mutex_);
   if (seat_number != seat_number_ || ending()) return;
+  keep(std::move(atlas));
+  advance();
+}
+
+void WatchCall::keep(AtlasPtr atlas) {
   if (quota_) quota_->noteAtlas(atlas->sequence, atlas->layout->size_px.area());
   outbox_.offer(std::move(atlas));
-  advance();
 }
 
 void WatchCall::endSeat(uint64_t seat_number, const absl::Status& status) {

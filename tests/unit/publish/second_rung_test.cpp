@@ -3,7 +3,10 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "unit/publish/watcher.h"
@@ -30,6 +33,10 @@ struct Reader {
 
 class SecondRungTest : public testing::Test {
  protected:
+  SecondRungTest() {
+    broadcaster_.onDemandChange([this](const std::string& stream) { demands_.push_back(stream); });
+  }
+
   SubscriptionPtr watch(const EncodingSpec& encoding = kAdapting) {
     return join(broadcaster_, "s", quiltOf(2), std::make_shared<Watcher>(), encoding);
   }
@@ -82,6 +89,7 @@ class SecondRungTest : public testing::Test {
   double busy_core_count_ = 0.5;
   int64_t coding_ns_ = 30 * kMs;
   CodingRoom room_{2, [this] { return used_ns_; }};
+  std::vector<std::string> demands_;
   Broadcaster broadcaster_{{.subscriber_count_max = 4}, unboundedMemory(), room_};
   Reader fast_{.place = watch()};
   Reader slow_{.place = watch(), .bytes_per_ms = kSlow};
@@ -173,6 +181,53 @@ TEST_F(SecondRungTest, goesOnceOthersNeedItsTime) {
   const auto again = wantedWithin(5000, slow_, {&fast_, &slow_});
   ASSERT_TRUE(again.has_value());
   EXPECT_FALSE(move(slow_, *again).ok());
+}
+
+TEST_F(SecondRungTest, isCodedAtOnceForItsFirstReader) {
+  const auto wanted = wantedWithin(5000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(wanted.has_value());
+  demands_.clear();
+  ASSERT_TRUE(move(slow_, *wanted).ok());
+  EXPECT_THAT(demands_, testing::ElementsAre("s")) << "no frame may come for a long time";
+}
+
+TEST_F(SecondRungTest, givesAReaderTheNewestAtlas) {
+  const auto wanted = wantedWithin(5000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(wanted.has_value());
+  ASSERT_TRUE(move(slow_, *wanted).ok());
+  broadcaster_.publish(atlasOf(fast_.place->displayId(), 7));
+  const auto watcher = std::make_shared<Watcher>();
+  const RungMove back = {slow_.place->displayId(), slow_.place->subscriberId(), VideoRung::kFirst};
+  const auto place = broadcaster_.moveToRung(back, watcher, now_ns_);
+  ASSERT_TRUE(place.ok()) << place.status();
+  EXPECT_THAT(watcher->sequences(), testing::ElementsAre(7));
+}
+
+TEST_F(SecondRungTest, getsAnAtlasThatNeedsNoOtherAlsoForAReaderThatMayNotTakeItYet) {
+  EncodingSpec chained = kAdapting;
+  chained.prediction = Prediction::kAcrossAtlases;
+  chained.bits_per_second_max = 80'000'000;
+  Reader fast{.place = watch(chained)};
+  Reader slow{.place = watch(chained), .bytes_per_ms = kSlow};
+  fast_.place = nullptr;
+  slow_.place = nullptr;
+  const auto wanted = wantedWithin(5000, slow, {&fast, &slow});
+  ASSERT_TRUE(wanted.has_value());
+  ASSERT_TRUE(move(slow, *wanted).ok());
+  const uint64_t first_id = fast.place->displayId();
+  const auto chain = broadcaster_.display(first_id)->chain;
+  for (const uint64_t sequence : {uint64_t{1}, uint64_t{2}}) {
+    auto atlas = std::make_shared<EncodedAtlas>(*atlasOf(first_id, sequence));
+    atlas->reference_sequence = chain->begin(sequence, now_ns_);
+    chain->noteWhole(sequence);
+    broadcaster_.publish(atlas);
+  }
+  slow.place->beginWrite(20'000'000, now_ns_);
+  slow.place->endAtlas(now_ns_);
+  ASSERT_FALSE(slow.place->mayBegin(now_ns_));
+  const RungMove back = {slow.place->displayId(), slow.place->subscriberId(), VideoRung::kFirst};
+  ASSERT_TRUE(move(slow, back).ok());
+  EXPECT_TRUE(chain->wantsAgain(now_ns_ + 300 * kMs)) << "frames may stand";
 }
 
 TEST_F(SecondRungTest, hasAChainOfItsOwn) {
