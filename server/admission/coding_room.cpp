@@ -41,6 +41,11 @@ bool CodingRoom::take(double busy_core_count, int64_t now_ns) {
   return true;
 }
 
+void CodingRoom::giveBack() {
+  std::lock_guard lock(mutex_);
+  taken_ns_.reset();
+}
+
 bool CodingRoom::isOver() const {
   std::lock_guard lock(mutex_);
   return is_over_;

@@ -27,6 +27,8 @@ class CodingRoom {
   // Takes room for an encoding that keeps so many cores busy, such as 0.3. False where there is
   // none, where nothing was measured yet, or where the last one does not show in what is measured.
   bool take(double busy_core_count, int64_t now_ns);
+  // Gives back the room that was taken last, which is not needed after all.
+  void giveBack();
   // For a while, the server has needed all of its time: encodings that were granted have to go.
   bool isOver() const;
 

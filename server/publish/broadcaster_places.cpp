@@ -97,15 +97,15 @@ std::shared_ptr<DisplayCoding> Broadcaster::State::otherCoding(uint64_t display_
   return displays.isOpen(key) ? displays.at(key).active->coding : nullptr;
 }
 
-absl::Status Broadcaster::State::payForRung(const ActiveDisplay& before, const std::string& key,
-                                            int64_t now_ns) {
+absl::StatusOr<bool> Broadcaster::State::payForRung(const ActiveDisplay& before,
+                                                    const std::string& key, int64_t now_ns) {
   const bool returns = before.encoding.rung == VideoRung::kSecond;
   {
     std::lock_guard lock(mutex);
-    if (returns || displays.isOpen(key)) return absl::OkStatus();
+    if (returns || displays.isOpen(key)) return false;
   }
   const std::optional<double> busy_core_count = before.coding->busyCoreCount(now_ns);
-  if (busy_core_count && coding_room.take(*busy_core_count, now_ns)) return absl::OkStatus();
+  if (busy_core_count && coding_room.take(*busy_core_count, now_ns)) return true;
   return absl::ResourceExhaustedError(
       "the server has no processor time left for a second encoding of this display");
 }
@@ -151,11 +151,13 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::moveToRu
   other.coding = before->coding->otherRung();
   other.chain = chainOf(other.encoding);
   const std::string key = keyOf(other);
-  VIEWLOOM_RETURN_IF_ERROR(state_->payForRung(*before, key, now_ns));
+  const absl::StatusOr<bool> has_paid = state_->payForRung(*before, key, now_ns);
+  VIEWLOOM_RETURN_IF_ERROR(has_paid.status());
   ReaderLine line = before->coding->lineOf(move.subscriber_id);
   line.rung.noteMoved(now_ns);
   const absl::StatusOr<State::Joined> joined =
       state_->take(other, key, subscriber, {move.display_id, move.subscriber_id});
+  if (!joined.ok() && *has_paid) state_->coding_room.giveBack();
   VIEWLOOM_RETURN_IF_ERROR(joined.status());
   auto subscription =
       std::make_unique<Subscription>(state_, *joined->display, joined->member->id(), line);

@@ -56,8 +56,10 @@ struct Broadcaster::State {
   void tell(const Joined& joined) const;
   // Coding of the other rung of a display; nullptr = nobody is on that.
   std::shared_ptr<DisplayCoding> otherCoding(uint64_t display_id);
-  // OK where the processors have time to code the display on another rung, or do so already.
-  absl::Status payForRung(const ActiveDisplay& before, const std::string& key, int64_t now_ns);
+  // OK where the processors have time to code the display on another rung, or do so already. True:
+  // that time was taken from the room.
+  absl::StatusOr<bool> payForRung(const ActiveDisplay& before, const std::string& key,
+                                  int64_t now_ns);
   void announce(const std::string& stream) const {
     if (on_demand_change) on_demand_change(stream);
   }

@@ -42,6 +42,13 @@ TEST_F(CodingRoomTest, grantsTheNextOnceTheLastOneShows) {
   EXPECT_FALSE(room_.take(0.3, now_ns_));
 }
 
+TEST_F(CodingRoomTest, grantsAgainWhatWasGivenBack) {
+  run(2000, 0.2);
+  EXPECT_TRUE(room_.take(0.9, now_ns_));
+  room_.giveBack();
+  EXPECT_TRUE(room_.take(0.9, now_ns_));
+}
+
 TEST_F(CodingRoomTest, isOverOnceAllTimeIsTakenForAWhile) {
   run(2000, 1);
   run(2000, 2);

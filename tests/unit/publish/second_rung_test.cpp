@@ -90,7 +90,8 @@ class SecondRungTest : public testing::Test {
   int64_t coding_ns_ = 30 * kMs;
   CodingRoom room_{2, [this] { return used_ns_; }};
   std::vector<std::string> demands_;
-  Broadcaster broadcaster_{{.subscriber_count_max = 4}, unboundedMemory(), room_};
+  Broadcaster broadcaster_{
+      {.display_count_max = 2, .subscriber_count_max = 4}, unboundedMemory(), room_};
   Reader fast_{.place = watch()};
   Reader slow_{.place = watch(), .bytes_per_ms = kSlow};
 };
@@ -167,6 +168,14 @@ TEST_F(SecondRungTest, isNotMadeWithoutTimeToCodeIt) {
   const auto again = wantedWithin(1500, slow_, {&fast_, &slow_});
   ASSERT_TRUE(again.has_value());
   EXPECT_TRUE(move(slow_, *again).ok());
+}
+
+TEST_F(SecondRungTest, takesNoTimeWhereThereIsNoPlaceForIt) {
+  const auto other = join(broadcaster_, "other", quiltOf(2), std::make_shared<Watcher>());
+  const auto wanted = wantedWithin(5000, slow_, {&fast_, &slow_});
+  ASSERT_TRUE(wanted.has_value());
+  EXPECT_EQ(move(slow_, *wanted).code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_TRUE(room_.take(0.1, now_ns_)) << "another display has it";
 }
 
 TEST_F(SecondRungTest, goesOnceOthersNeedItsTime) {
