@@ -79,12 +79,11 @@ class LookAround(unittest.TestCase):
     def place(self):
         return [self.eye()["pose"]["position"][axis] for axis in "xyz"]
 
-    def picture(self):
-        """What the canvas shows of the scene, and where, px of the device."""
+    def picture(self, size):
+        """What the canvas shows of the scene, scaled to that size in px."""
         scale = self.browser.evaluate("devicePixelRatio")
         left, top, width, height = (side * scale for side in self.box())
         shot = self.browser.screenshot().crop((left, top, left + width, top + height))
-        _, size = self.asked()
         # The page leaves a margin of 2.5 % of the shorter side.
         margin = round(0.025 * min(width, height))
         tall = min(height - 2 * margin, (width - 2 * margin) / 0.75)
@@ -100,7 +99,7 @@ class LookAround(unittest.TestCase):
         """PSNR of the canvas against what the eye of the newest pose sees, dB."""
         _, size = self.asked()
         expected = ray_scene.look(ray_scene.Eye.of_message(self.eye(), *size), *size)[0]
-        return ray_scene.psnr(self.picture(), expected)
+        return ray_scene.psnr(self.picture(size), expected)
 
     def test_the_pointer_moves_one_eye_whose_view_is_as_large_as_the_canvas(self):
         self.start(scale=2)
