@@ -42,7 +42,7 @@ READERS = re.compile(r"""
   | /client/files/(bmp|dpt|netpbm|npy)_image\.cpp
   | /client/files/(deep_exr|exif|exr_header|exr_unpack|icc_profile|jpeg_segments)\.cpp
   | /client/inputs/tmiv_camera\.cpp
-  | /client/lib/(atlas|atlas_assembler|stacked_atlas)\.cpp
+  | /client/lib/(atlas|atlas_assembler|color_decoder|stacked_atlas)\.cpp
   | /client/photos/(depth_xmp|jpeg_depth)\.cpp
   | /client/recording/(atlas_recording|frame_recording|recording_reader)\.cpp
 """, re.VERBOSE)
@@ -66,6 +66,7 @@ OTHERS = re.compile(r"""
   | /server/rpc/(asked_picture|atlas_messages|atlas_outbox|bidi_call|call_access)\.cpp
   | /server/rpc/(layout_to_proto|peer_host|publish_offer|publish_place|report_to_proto)\.cpp
   | /server/rpc/(source_wants|status_to_grpc|tls_credentials|used_rate|wanted_message)\.cpp
+  | /server/rpc/watch_places\.cpp
   | /client/deep/
   | /client/files/(color_coding|container|deep_layers|depth_packing|exr_description)\.cpp
   | /client/files/(exr_image|exr_layer_names|exr_open|exr_plane_reader|exr_usual)\.cpp
