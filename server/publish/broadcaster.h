@@ -72,12 +72,10 @@ class Broadcaster {
   // `replaced`: a place that is left as the new one is taken, so that no limit counts both. It
   // stays where the new one is refused.
   // RESOURCE_EXHAUSTED over a limit, or where the budget has no room; UNAVAILABLE while draining.
-  absl::StatusOr<std::unique_ptr<Subscription>> subscribe(const std::string& stream,
-                                                          const DisplaySpec& spec,
-                                                          const EncodingSpec& encoding,
-                                                          std::shared_ptr<Subscriber> subscriber,
-                                                          EyeTrackPtr eyes = nullptr,
-                                                          const Subscription* replaced = nullptr);
+  absl::StatusOr<std::unique_ptr<Subscription>> subscribe(
+      const std::string& stream, const DisplaySpec& spec, const EncodingSpec& encoding,
+      const std::shared_ptr<Subscriber>& subscriber, EyeTrackPtr eyes = nullptr,
+      const Subscription* replaced = nullptr);
 
   // Takes the place that Subscription::wantedMove() asks for. It is another display of the same
   // picture, whose sequence is its own. `subscriber` is told as a joiner is, but waits for an atlas

@@ -112,7 +112,7 @@ absl::StatusOr<bool> Broadcaster::State::payForRung(const ActiveDisplay& before,
 
 absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscribe(
     const std::string& stream, const DisplaySpec& spec, const EncodingSpec& encoding,
-    std::shared_ptr<Subscriber> subscriber, EyeTrackPtr eyes, const Subscription* replaced) {
+    const std::shared_ptr<Subscriber>& subscriber, EyeTrackPtr eyes, const Subscription* replaced) {
   VIEWLOOM_CHECK(isTracked(spec) == (eyes != nullptr));
   std::string picture_key = strCat(stream, " ", displayKey(spec), arrangementKey(encoding));
   if (eyes != nullptr) picture_key += strCat("of ", state_->takeId(), " ");

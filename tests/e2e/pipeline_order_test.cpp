@@ -64,7 +64,7 @@ class PipelineOrderTest : public PipelineFixture {
  protected:
   static std::unique_ptr<Broadcaster::Subscription> join(Server& server, const DisplaySpec& spec,
                                                          std::shared_ptr<Subscriber> subscriber) {
-    return server.broadcaster.subscribe("scene", spec, {}, std::move(subscriber)).value();
+    return server.broadcaster.subscribe("scene", spec, {}, subscriber).value();
   }
 };
 

@@ -91,7 +91,7 @@ using SubscriptionPtr = std::unique_ptr<Broadcaster::Subscription>;
 inline SubscriptionPtr join(Broadcaster& broadcaster, const std::string& stream,
                             const DisplaySpec& spec, std::shared_ptr<Subscriber> subscriber,
                             const EncodingSpec& encoding = {}) {
-  auto subscription = broadcaster.subscribe(stream, spec, encoding, std::move(subscriber));
+  auto subscription = broadcaster.subscribe(stream, spec, encoding, subscriber);
   EXPECT_TRUE(subscription.ok()) << subscription.status();
   return *std::move(subscription);
 }
