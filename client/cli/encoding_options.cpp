@@ -38,7 +38,7 @@ void addEncodingOptions(const usage::Command& app, EncodingOptions& options) {
           .excludes(lossless)
           .group(kEncodingGroup);
   app.addFlag("--chained", options.is_chained,
-              "Let each picture of video refer to the one before: half the bytes of a still camera")
+              "Let each picture of video refer to the same one of the atlas before")
       .needs(h264)
       .group(kEncodingGroup);
   app.add("--mbit-max", options.mbit_max,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Turns atlas messages into bitmaps, one at a time; of those that wait only the newest is decoded.
-// Of chained video all are, because each refers to the one before.
+// Atlases of chained video are all decoded, because each refers to the one before.
 import {unpackDepth} from './compact_depth.js';
 import {VideoAtlases} from './video_atlas.js';
 
