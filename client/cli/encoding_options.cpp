@@ -37,8 +37,7 @@ void addEncodingOptions(const usage::Command& app, EncodingOptions& options) {
           .excludes(full)
           .excludes(lossless)
           .group(kEncodingGroup);
-  app.addFlag("--chained", options.is_chained,
-              "Let each picture of video refer to the same one of the atlas before")
+  app.addFlag("--chained", options.is_chained, "Let atlases of video refer to the one before")
       .needs(h264)
       .group(kEncodingGroup);
   app.add("--mbit-max", options.mbit_max,

@@ -3,15 +3,11 @@
 
 #include <utility>
 
-#include "base/str_cat.h"
 #include "lib/stacked_atlas.h"
 #include "video/openh264_decoder.h"
 
 namespace viewloom {
 namespace {
-
-// Each takes a few megabytes. Servers make some tens of pictures at most.
-constexpr uint32_t kDecodersMax = 256;
 
 bool isChained(const Atlas& atlas) {
   return atlas.layout->has_video() &&
@@ -34,31 +30,18 @@ absl::StatusOr<AtlasPicture> ColorDecoder::decode(const Atlas& atlas) {
   const absl::Status prepared = prepare(atlas);
   sequence_ = 0;  // until it is decoded
   VIEWLOOM_RETURN_IF_ERROR(prepared);
-  absl::StatusOr<AtlasPicture> picture =
-      decodeVideo(atlas, [this](uint32_t index) -> VideoDecoder& { return *decoders_[index]; });
+  absl::StatusOr<AtlasPicture> picture = decodeVideo(atlas, *decoder_);
   if (picture.ok()) sequence_ = atlas.header.sequence();
   return picture;
 }
 
 absl::Status ColorDecoder::prepare(const Atlas& atlas) {
   const uint64_t reference = atlas.header.reference_sequence();
-  const uint32_t count = atlas.layout->video().picture_count();
-  if (reference != 0) {
-    // A stack of more pictures, or of fewer, has nothing that it could refer to.
-    const bool is_known = reference == sequence_ && count == decoders_.size();
-    return is_known ? absl::OkStatus() : refusedReference(atlas);
-  }
-  if (count > kDecodersMax) {
-    return absl::ResourceExhaustedError(strCat("the layout has chained video of ", count,
-                                               " pictures; accepted are up to ", kDecodersMax));
-  }
-  // Pictures of another size, too, come with new decoders.
-  decoders_.clear();
-  for (uint32_t i = 0; i < count; ++i) {
-    auto decoder = OpenH264Decoder::make();
-    VIEWLOOM_RETURN_IF_ERROR(decoder.status());
-    decoders_.push_back(*std::move(decoder));
-  }
+  if (reference != 0) return reference == sequence_ ? absl::OkStatus() : refusedReference(atlas);
+  // Pictures of another size, too, come with a new decoder.
+  auto decoder = OpenH264Decoder::make();
+  VIEWLOOM_RETURN_IF_ERROR(decoder.status());
+  decoder_ = *std::move(decoder);
   return absl::OkStatus();
 }
 

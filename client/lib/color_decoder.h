@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <vector>
 
 #include "lib/atlas.h"
 
@@ -12,8 +11,8 @@ namespace viewloom {
 
 class VideoDecoder;
 
-// Each picture of the stack of chained video (PREDICTION_ACROSS_ATLASES) is a stream, which a
-// decoder of its own follows from atlas to atlas. Other atlases are decoded as by decodePlane.
+// Chained video (PREDICTION_ACROSS_ATLASES) is one stream, which a decoder follows from atlas to
+// atlas. Other atlases are decoded as by decodePlane.
 // Thread-safety: none; one owner.
 class ColorDecoder {
  public:
@@ -24,15 +23,14 @@ class ColorDecoder {
 
   // RGB, as decodePlane(atlas, COLOR). Takes the atlases of one call in the order in which they
   // came, each of them if they are chained. FAILED_PRECONDITION if the atlas refers to one that was
-  // not decoded before it. RESOURCE_EXHAUSTED for chained video of more than 256 pictures. After an
-  // error, atlases are refused until one comes that needs no other.
+  // not decoded before it. After an error, atlases are refused until one comes that needs no other.
   absl::StatusOr<AtlasPicture> decode(const Atlas& atlas);
 
  private:
   absl::Status prepare(const Atlas& atlas);
 
-  std::vector<std::unique_ptr<VideoDecoder>> decoders_;  // of each picture
-  uint64_t sequence_ = 0;                                // of the last atlas; 0 = none
+  std::unique_ptr<VideoDecoder> decoder_;  // of the chain
+  uint64_t sequence_ = 0;                  // of the last atlas; 0 = none
 };
 
 }  // namespace viewloom

@@ -62,7 +62,7 @@ absl::Status asLoss(uint32_t index, const absl::Status& status) {
   return absl::DataLossError(strCat("picture ", index, " of the atlas: ", status.message()));
 }
 
-// The pictures in their order.
+// The pictures by their numbers.
 std::vector<const AtlasBand*> picturesOf(const Atlas& atlas) {
   std::vector<const AtlasBand*> pictures(atlas.layout->video().picture_count(), nullptr);
   for (const AtlasBand& band : atlas.bands) {
@@ -116,20 +116,21 @@ absl::StatusOr<AtlasPicture> decodeVideo(const Atlas& atlas) {
   if (atlas.header.reference_sequence() != 0) return refusedReference(atlas);
   const absl::StatusOr<std::unique_ptr<OpenH264Decoder>> decoder = OpenH264Decoder::make();
   VIEWLOOM_RETURN_IF_ERROR(decoder.status());
-  return decodeVideo(atlas, [&](uint32_t) -> VideoDecoder& { return **decoder; });
+  return decodeVideo(atlas, **decoder);
 }
 
-absl::StatusOr<AtlasPicture> decodeVideo(const Atlas& atlas,
-                                         const std::function<VideoDecoder&(uint32_t)>& decoder_of) {
+absl::StatusOr<AtlasPicture> decodeVideo(const Atlas& atlas, VideoDecoder& decoder) {
   const v1::AtlasLayout& layout = *atlas.layout;
   AtlasPicture picture = emptyAtlas(layout, 3);
   const std::vector<const AtlasBand*> pictures = picturesOf(atlas);
-  for (uint32_t index = 0; index < pictures.size(); ++index) {
+  const auto count = uint32_t(pictures.size());
+  for (uint32_t place = 0; place < count; ++place) {
+    const uint32_t index = atlas.header.is_backward() ? count - 1 - place : place;
     VIEWLOOM_CHECK(pictures[index] != nullptr);
     const std::string& bytes = pictures[index]->bytes;
     const auto* const data = reinterpret_cast<const uint8_t*>(bytes.data());
     const absl::StatusOr<VideoPicture> decoded =
-        decoder_of(index).decode({data, bytes.size()}, sizeOf(layout.video().picture_size()));
+        decoder.decode({data, bytes.size()}, sizeOf(layout.video().picture_size()));
     if (!decoded.ok()) return asLoss(index, decoded.status());
     writeViews(*decoded, layout, index, picture);
   }

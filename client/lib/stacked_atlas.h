@@ -2,9 +2,6 @@
 // Atlases whose views lie in a stack of pictures: color as H.264, and the planes beside it.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-
 #include "base/status.h"
 #include "lib/atlas.h"
 
@@ -23,9 +20,8 @@ bool isWholeVideo(const Atlas& atlas);
 // DATA_LOSS if a picture is damaged, or has another size than the layout says. FAILED_PRECONDITION
 // if the atlas refers to another.
 absl::StatusOr<AtlasPicture> decodeVideo(const Atlas& atlas);
-// The same with the decoder of each picture, also of an atlas that refers to another.
-absl::StatusOr<AtlasPicture> decodeVideo(const Atlas& atlas,
-                                         const std::function<VideoDecoder&(uint32_t)>& decoder_of);
+// The same with the decoder of the atlas before, also of an atlas that refers to that one.
+absl::StatusOr<AtlasPicture> decodeVideo(const Atlas& atlas, VideoDecoder& decoder);
 // The atlas refers to one that was not decoded.
 absl::Status refusedReference(const Atlas& atlas);
 

@@ -40,9 +40,10 @@ export function parseAtlasMessage(message) {
 }
 
 // {bitmap}, {planes} of a video (video_planes.js), or neither of one that is not to be shown.
-async function decodedColor({blob, pictures, layout, link, isShown}) {
+async function decodedColor({blob, pictures, layout, link, isBackward, isShown}) {
   if (pictures.length === 0) return {bitmap: await createImageBitmap(blob)};
-  return {...await videos.decode(pictures, layout, {link, isShown}), upload: videos.upload};
+  const made = await videos.decode(pictures, layout, {link, isBackward, isShown});
+  return {...made, upload: videos.upload};
 }
 
 // {sequence, reference} of an atlas of chained video; null of others.
@@ -124,7 +125,7 @@ export class Decoder {
     atlas.decodeStarted_ms = performance.now();
     const {blob, pictures, packedDepth, header} = atlas;
     const job = {blob, pictures, packedDepth, bands: header.depth_bands, layout: header.layout,
-      link, isShown: !atlas.isOvertaken};
+      link, isBackward: Boolean(header.is_backward), isShown: !atlas.isOvertaken};
     if (this.#worker) {
       this.#worker.postMessage(job);
     } else {

@@ -21,66 +21,29 @@ function wayFor(frame, trial) {
   return trial.next;
 }
 
-// Decoders of chained video: each picture of the stack is a stream of its own.
-class Chain {
-  #decoders = [];
-  #sequence = 0;  // of the last atlas; 0 = none
-
-  constructor(patience_ms) {
-    this.patience_ms = patience_ms;
-  }
-
-  // pictures: access units of the atlas `sequence`, which refers to the atlas `reference`; 0 = to
-  // none. The decoders, one of each picture, which have begun with them.
-  begin(pictures, {sequence, reference}, configuration) {
-    if (reference !== 0 && reference !== this.#sequence) {
-      throw new Error(`it refers to atlas ${reference}, which was not decoded before it`);
-    }
-    this.#sequence = sequence;
-    while (this.#decoders.length > pictures.length) this.#decoders.pop().close();
-    return pictures.map((data, index) => {
-      const decoder = this.#decoders[index] ??= new PictureDecoder(this.patience_ms);
-      decoder.begin(configuration);
-      decoder.feed(data, reference === 0);
-      decoder.expectAll();
-      return decoder;
-    });
-  }
-
-  end() {
-    for (const decoder of this.#decoders) decoder.end();
-  }
-
-  close() {
-    for (const decoder of this.#decoders) decoder.close();
-    this.#decoders = [];
-    this.#sequence = 0;
-  }
-}
-
 export class VideoAtlases {
-  #alone;  // decoder of atlases that need no other
-  #chain;
+  #decoder;
+  #sequence = 0;  // of the last atlas, if the next one may refer to it; 0 = none
   #hardware = 'no-preference';
   #ways = {};  // those that were begun, by name
   #trial = new UploadTrial(Object.keys(kWays));
 
   // patience_ms: with a decoder that gives no picture
   constructor(patience_ms) {
-    this.#alone = new PictureDecoder(patience_ms);
-    this.#chain = new Chain(patience_ms);
+    this.#decoder = new PictureDecoder(patience_ms);
   }
 
   // Name of the way that was measured to be the faster one; '' = not yet.
   get upload() { return this.#trial.kept; }
 
-  // pictures: access units, Uint8Array each; layout: the AtlasLayout; link: {sequence, reference}
-  // of chained video; isShown: false where only the next atlas needs it. One call at a time.
+  // pictures: access units, Uint8Array each, in the order in which they came; layout: the
+  // AtlasLayout; link: {sequence, reference} of chained video; isBackward: the last picture came
+  // first; isShown: false where only the next atlas needs it. One call at a time.
   // {bitmap} in the arrangement that the layout says, {planes} of its stack, or {} of one that is
   // not shown. If a decoder fails, one without hardware tries the same atlas, unless it refers to
   // another. Rejects with what is wrong then; the next atlas begins with a new decoder.
-  async decode(pictures, layout, {link = null, isShown = true} = {}) {
-    const job = {pictures, layout, link, isShown};
+  async decode(pictures, layout, {link = null, isBackward = false, isShown = true} = {}) {
+    const job = {pictures, layout, link, isBackward, isShown};
     try {
       return await this.#decodeOnce(job);
     } catch (error) {
@@ -90,16 +53,15 @@ export class VideoAtlases {
     }
   }
 
-  async #decodeOnce({pictures, layout, link, isShown}) {
+  async #decodeOnce({pictures, layout, link, isBackward, isShown}) {
     try {
-      const next = this.#begin(pictures, layout.video, link);
-      return isShown ? await this.#collect(next, layout) : await this.#follow(next, layout);
+      this.#begin(pictures, layout.video, link);
+      return isShown ? await this.#collect(layout, isBackward) : await this.#follow(layout);
     } catch (error) {
       this.close();
       throw error;
     } finally {
-      this.#alone.end();
-      this.#chain.end();
+      this.#decoder.end();
     }
   }
 
@@ -109,43 +71,44 @@ export class VideoAtlases {
   }
 
   close() {
-    this.#alone.close();
-    this.#chain.close();
+    this.#decoder.close();
+    this.#sequence = 0;
     for (const way of Object.values(this.#ways)) way.close();
     this.#ways = {};
   }
 
-  // A function that gives the frame of each picture, in their order.
   #begin(pictures, {codec_string, picture_size}, link) {
-    const configuration = {
+    const reference = link?.reference ?? 0;
+    if (reference !== 0 && reference !== this.#sequence) {
+      throw new Error(`it refers to atlas ${reference}, which was not decoded before it`);
+    }
+    this.#sequence = link?.sequence ?? 0;
+    this.#decoder.begin({
       codec: codec_string, codedWidth: picture_size.width, codedHeight: picture_size.height,
       optimizeForLatency: true, hardwareAcceleration: this.#hardware,
-    };
-    if (link) {
-      const decoders = this.#chain.begin(pictures, link, configuration);
-      return (index) => decoders[index].next();
-    }
-    this.#alone.begin(configuration);
-    pictures.forEach((data, index) => this.#alone.feed(data, index === 0));
-    this.#alone.flush();
-    return () => this.#alone.next();
+    });
+    pictures.forEach(
+        (data, place) => this.#decoder.feed(data, place === 0 && reference === 0));
+    if (link) this.#decoder.expectAll();
+    else this.#decoder.flush();
   }
 
-  async #follow(next, {video}) {
-    for (let index = 0; index < video.picture_count; ++index) {
-      const frame = await next(index);
+  async #follow({video}) {
+    for (let place = 0; place < video.picture_count; ++place) {
+      const frame = await this.#decoder.next();
       frame.close();
     }
     return {};
   }
 
   // Time until the next frame is the decoder's. All other time is the way's.
-  async #collect(next, layout) {
+  async #collect(layout, isBackward) {
+    const {picture_count} = layout.video;
     let name = '';
     let way = null;
     let time_ms = 0;
-    for (let index = 0; index < layout.video.picture_count; ++index) {
-      const frame = await next(index);
+    for (let place = 0; place < picture_count; ++place) {
+      const frame = await this.#decoder.next();
       const begun_ms = performance.now();
       try {
         checkSize(frame, layout.video);
@@ -154,7 +117,7 @@ export class VideoAtlases {
           way = this.#ways[name] ??= new kWays[name]();
           way.begin(layout);
         }
-        await way.put(index, frame);
+        await way.put(isBackward ? picture_count - 1 - place : place, frame);
       } finally {
         frame.close();
       }

@@ -53,8 +53,7 @@ uint64_t encodedBytes(const EncodingSpec& encoding, uint64_t area_px) {
 // Stack of the views of a video; none for other encodings.
 std::optional<VideoStack> stackOf(const TileGrid& grid, const EncodingSpec& encoding) {
   if (encoding.color != BandEncoding::kH264) return std::nullopt;
-  const absl::StatusOr<VideoStack> stack =
-      planVideoStack(grid.tile_size_px, grid.view_count, encoding.prediction);
+  const absl::StatusOr<VideoStack> stack = planVideoStack(grid.tile_size_px, grid.view_count);
   if (!stack.ok()) return std::nullopt;  // refused elsewhere
   return *stack;
 }
@@ -113,7 +112,7 @@ DisplayPrice displayPrice(const DisplaySpec& spec, const EncodingSpec& encoding)
           .encoded_bytes = encoded_bytes,
           .making_bytes =
               makingBytes(encoding, area_px) + pictures_bytes + (is_chained ? 0 : encoder_bytes),
-          .chain_bytes = is_chained ? stack->picture_count * encoder_bytes : 0,
+          .chain_bytes = is_chained ? encoder_bytes : 0,
           .queue_bytes = is_chained ? queuedBytes(encoded_bytes) : 0};
 }
 

@@ -67,12 +67,14 @@ struct AtlasOutcome {
   ReflectionCounts reflections;  // of displays with reflections
 };
 
-// A whole atlas: every band is there. Bands are sorted by plane, image and first_row.
+// A whole atlas: every band is there. Bands are sorted by plane, by place of the image in the order
+// of the pictures, and by first_row.
 struct EncodedAtlas : AtlasOutcome {
   uint64_t display_id = 0;
   uint64_t sequence = 0;  // of its display and encoding, from 1
   // Atlas of the display that its pictures refer to; 0 = it needs no other.
   uint64_t reference_sequence = 0;
+  PictureOrder picture_order = PictureOrder::kForward;  // of the images
   uint64_t frame_number = 0;
   int64_t capture_time_ns = 0;
   int64_t present_at_ns = 0;

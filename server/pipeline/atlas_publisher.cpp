@@ -61,16 +61,17 @@ std::vector<double> sharesOutside(const AtlasLayout& layout, const Pose& display
 }
 
 // The bands that the output will have, without their bytes.
-std::vector<EncodedBand> bandsOf(const AtlasOutput& output, const AtlasLayout& layout) {
+std::vector<EncodedBand> bandsOf(const AtlasOutput& output, const AtlasLayout& layout,
+                                 const AtlasStrips& strips) {
   const EncodingSpec& encoding = output.display->encoding;
   const uint32_t image_height = layout.imageSize().height;
   std::vector<EncodedBand> bands;
   for (const AtlasPlane plane : planesOf(encoding)) {
     const bool is_video = output.video && plane == AtlasPlane::kColor;
     const uint32_t band_row_count = is_video ? image_height : output.band_row_count;
-    for (uint32_t image = 0; image < layout.image_count; ++image) {
+    for (uint32_t place = 0; place < layout.image_count; ++place) {
       for (uint32_t row = 0; row < image_height; row += band_row_count) {
-        bands.push_back({.image_index = image,
+        bands.push_back({.image_index = strips.imageAt(place),
                          .plane = plane,
                          .first_row = row,
                          .row_count = std::min(band_row_count, image_height - row),
@@ -102,6 +103,7 @@ EncodedAtlas begunAtlas(const AtlasRun& run) {
   atlas.display_pose = run.display_pose;
   atlas.layout = run.picture->layout;
   atlas.method = run.method;
+  atlas.picture_order = run.strips.order();
   atlas.stats = structure.stats;
   atlas.taking = structure.taking;
   atlas.depth_budget = depthBudget(*atlas.layout, structure.stats, structure.depths);
@@ -119,8 +121,8 @@ void beginVideo(const AtlasOutput& output, int64_t now_ns, EncodedAtlas& atlas) 
   }
   atlas.video_qp = start.qp;
   if (display.chain) {
-    atlas.reference_sequence = display.chain->begin(atlas.sequence, now_ns);
-    start.chain = display.chain->encoders();
+    atlas.reference_sequence = display.chain->begin(atlas.sequence, now_ns, atlas.picture_order);
+    start.chain = display.chain->coder();
     start.is_self_contained = atlas.reference_sequence == 0;
   }
   output.video->begin(std::move(start));
@@ -146,7 +148,7 @@ void AtlasPublisher::open(AtlasRun& run) const {
     atlas.sequence = links_.broadcaster.nextSequence(atlas.display_id);
     atlas.encoding = output.display->encoding;
     if (output.video) beginVideo(output, links_.clock.nowNs(), atlas);
-    atlas.bands = bandsOf(output, *atlas.layout);
+    atlas.bands = bandsOf(output, *atlas.layout, run.strips);
     output.atlas = std::make_shared<GrowingAtlas>(std::move(atlas));
     links_.broadcaster.begin(output.atlas);
   }

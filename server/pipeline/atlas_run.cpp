@@ -27,6 +27,11 @@ AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
   return output;
 }
 
+// Displays of one picture are all chained, or none; where they differ, the first rung decides.
+PictureOrder orderOfPictures(const ActiveDisplay& display) {
+  return display.chain ? display.chain->nextOrder() : PictureOrder::kForward;
+}
+
 std::vector<ActiveDisplayPtr> onSecondRung(const std::vector<AtlasOutput>& outputs) {
   std::vector<ActiveDisplayPtr> displays;
   for (const AtlasOutput& output : outputs) {
@@ -61,7 +66,8 @@ AtlasRun::AtlasRun(AtlasJob atlas_job, PicturePtr resolved, const Pose& pose,
     // 8 MCU rows are 64 or 128 px, so every output's bands tile a strip of the highest.
     strip_row_count = std::max(strip_row_count, outputs.back().band_row_count);
   }
-  strips = AtlasStrips(*picture->layout, strip_row_count);
+  strips =
+      AtlasStrips(*picture->layout, strip_row_count, orderOfPictures(*outputs.front().display));
   for (size_t output = 0; output < outputs.size(); ++output) {
     uint32_t rank = 0;
     for (const AtlasPlane plane : planesOf(outputs[output].display->encoding)) {
@@ -78,7 +84,7 @@ std::vector<ActiveDisplayPtr> AtlasRun::reserveVideo(MemoryBudget& memory) {
   uint64_t bytes = 0;
   for (const AtlasOutput& output : outputs) {
     if (!output.video) continue;
-    // Encoders of a chain are part of the display's price.
+    // The encoder of a chain is part of the display's price.
     const VideoStack& stack = *picture->layout->stack;
     bytes += isChained() ? videoPicturesBytes(stack) : videoAtlasBytes(stack);
   }

@@ -65,8 +65,8 @@ void computeInBatches() {
 struct EncodePool::StripPixels {
   const AtlasLayout& layout;
   const StripPlanes planes;
-  uint32_t image = 0;
-  BandPixels color;  // rows counted in its image
+  uint32_t place = 0;  // of its image, in the order of the pictures
+  BandPixels color;    // rows counted in its image
 
   // A plane of the whole strip.
   BandPixels pixels(AtlasPlane plane) const {
@@ -172,7 +172,7 @@ void EncodePool::putIntoVideo(const AtlasRunPtr& run, const EncodeTask& task,
                               const StripPixels& strip) {
   const size_t output = run->packs[task.pack].output;
   const BandPixels rows = rowsOf(strip.color, task.rows.first_row, task.rows.row_count);
-  if (run->outputs[output].video->put(strip.image, rows, planes_)) pushCoding(run, output);
+  if (run->outputs[output].video->put(strip.place, rows, planes_)) pushCoding(run, output);
 }
 
 void EncodePool::pushCoding(const AtlasRunPtr& run, size_t output) {
@@ -195,7 +195,7 @@ void EncodePool::codePicture(const AtlasRunPtr& run, size_t output) {
   links_.metrics.encoded_bytes.add(static_cast<double>(coded->bytes->size()));
   links_.metrics.bands_encoded.add();
   links_.metrics.video_pictures.add();
-  of.atlas->put(coded->picture, std::move(coded->bytes));
+  of.atlas->put(coded->place, std::move(coded->bytes));
   if (coded->is_next_ready) pushCoding(run, output);
   finishRows(run, run->picture->layout->imageSize().height);
 }
@@ -212,7 +212,7 @@ void EncodePool::pack(const EncodeTask& task, BandEncoder& encoder) {
       rowsOf(colorPixels(planes.rgba, planes.ycbcr, planes.color_px, run.planes.color),
              planes.first_row, run.strips.rowsOf(strip).row_count);
   color.first_row = run.strips.rowInImage(strip);
-  encode(task, {*run.picture->layout, planes, run.strips.imageOf(strip), color}, encoder);
+  encode(task, {*run.picture->layout, planes, run.strips.placeOf(strip), color}, encoder);
 }
 
 void EncodePool::encode(const EncodeTask& task, const StripPixels& strip, BandEncoder& encoder) {
@@ -229,7 +229,7 @@ void EncodePool::encode(const EncodeTask& task, const StripPixels& strip, BandEn
     const BandPixels slice = rowsOf(pixels, row, std::min(slice_rows, end - row));
     const uint32_t in_band = row % band_rows;
     const uint32_t rows_of_band = std::min(band_rows, pixels.row_count - (row - in_band));
-    const uint32_t index = strip.image * output.bands_per_image + slice.first_row / band_rows;
+    const uint32_t index = strip.place * output.bands_per_image + slice.first_row / band_rows;
     const size_t band = output.firstBandOf(packed.rank) + index;
     EncodedBand encoded = encoder.encode(slice, encoding, *run.picture->layout);
     links_.metrics.encoded_bytes.add(static_cast<double>(encoded.bytes->size()));

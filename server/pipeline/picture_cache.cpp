@@ -80,7 +80,7 @@ absl::Status PictureCache::layOut(const ActiveDisplay& display, const StreamDefa
           : makeAtlasLayout(spec, defaults, eyes.get());
   if (!made.ok()) return made.status();
   if (display.encoding.color == BandEncoding::kH264) {
-    VIEWLOOM_RETURN_IF_ERROR(stackViews(*made, display.encoding.prediction));
+    VIEWLOOM_RETURN_IF_ERROR(stackViews(*made));
   }
   entry.layout = std::make_shared<const AtlasLayout>(*std::move(made));
   return absl::OkStatus();

@@ -14,9 +14,9 @@ VideoAtlas::VideoAtlas(const VideoStack& stack, uint32_t qp)
       start_{.qp = qp},
       pictures_(stack.picture_count, {.planes = nullptr, .rows_left = picture_px_.height}) {}
 
-std::shared_ptr<PicturePlanes> VideoAtlas::planesOf(uint32_t picture, BytePool& pool) {
+std::shared_ptr<PicturePlanes> VideoAtlas::planesOf(uint32_t place, BytePool& pool) {
   std::lock_guard lock(mutex_);
-  std::shared_ptr<PicturePlanes>& planes = pictures_[picture].planes;
+  std::shared_ptr<PicturePlanes>& planes = pictures_[place].planes;
   if (!planes) planes = std::make_shared<PicturePlanes>(picture_px_, pool);
   return planes;
 }
@@ -25,25 +25,19 @@ bool VideoAtlas::isNextReady() const {
   return next_ < pictures_.size() && pictures_[next_].rows_left == 0;
 }
 
-bool VideoAtlas::put(uint32_t picture, const BandPixels& rows, BytePool& pool) {
-  planesOf(picture, pool)->put(rows);
+bool VideoAtlas::put(uint32_t place, const BandPixels& rows, BytePool& pool) {
+  planesOf(place, pool)->put(rows);
   std::lock_guard lock(mutex_);
-  VIEWLOOM_CHECK(pictures_[picture].rows_left >= rows.row_count);
-  pictures_[picture].rows_left -= rows.row_count;
+  VIEWLOOM_CHECK(pictures_[place].rows_left >= rows.row_count);
+  pictures_[place].rows_left -= rows.row_count;
   if (is_coding_ || !isNextReady()) return false;
   is_coding_ = true;
   return true;
 }
 
-std::unique_ptr<VideoEncoder>& VideoAtlas::slotOf(uint32_t picture) {
-  if (!start_.chain) return encoder_;
-  start_.chain->encoders.resize(pictures_.size());
-  return start_.chain->encoders[picture];
-}
-
 // Encoders that have just been taken may have coded another display before.
 absl::StatusOr<Reference> VideoAtlas::prepare(std::unique_ptr<VideoEncoder>& encoder,
-                                              uint32_t picture, VideoEncoders& encoders) {
+                                              uint32_t place, VideoEncoders& encoders) {
   bool is_new = !encoder;
   if (is_new) {
     absl::StatusOr<std::unique_ptr<VideoEncoder>> taken = encoders.take(picture_px_, start_.qp);
@@ -54,7 +48,7 @@ absl::StatusOr<Reference> VideoAtlas::prepare(std::unique_ptr<VideoEncoder>& enc
     VIEWLOOM_RETURN_IF_ERROR(is_other.status());
     is_new = *is_other;
   }
-  const bool refers = !is_new && (start_.chain ? !start_.is_self_contained : picture != 0);
+  const bool refers = !is_new && (place != 0 || (start_.chain && !start_.is_self_contained));
   return refers ? Reference::kPictureBefore : Reference::kNone;
 }
 
@@ -64,11 +58,11 @@ absl::StatusOr<CodedPicture> VideoAtlas::codeNext(VideoEncoders& encoders, ByteP
   {
     std::lock_guard lock(mutex_);
     VIEWLOOM_CHECK(is_coding_ && isNextReady());
-    coded.picture = next_;
+    coded.place = next_;
     planes = std::move(pictures_[next_].planes);
   }
-  std::unique_ptr<VideoEncoder>& encoder = slotOf(coded.picture);
-  const absl::StatusOr<Reference> reference = prepare(encoder, coded.picture, encoders);
+  std::unique_ptr<VideoEncoder>& encoder = slot();
+  const absl::StatusOr<Reference> reference = prepare(encoder, coded.place, encoders);
   VIEWLOOM_RETURN_IF_ERROR(reference.status());
   const int64_t begun_ns = wallTimeNs();
   const absl::Status status = encoder->encode(planes->video(), *reference, access_unit_);
@@ -84,7 +78,7 @@ absl::StatusOr<CodedPicture> VideoAtlas::codeNext(VideoEncoders& encoders, ByteP
   BytePool::Buffer unit = bytes.take(std::bit_ceil(access_unit_.size()));
   unit->assign(access_unit_.begin(), access_unit_.end());
   coded.bytes = std::move(unit);
-  if (encoder_ && coded.picture + 1 == pictures_.size()) encoders.putBack(std::move(encoder_));
+  if (encoder_ && coded.place + 1 == pictures_.size()) encoders.putBack(std::move(encoder_));
   std::lock_guard lock(mutex_);
   ++next_;
   is_coding_ = coded.is_next_ready = isNextReady();

@@ -17,7 +17,7 @@
 namespace viewloom {
 
 struct CodedPicture {
-  uint32_t picture = 0;
+  uint32_t place = 0;          // in the order of coding
   SharedBytes bytes;           // an access unit
   bool is_next_ready = false;  // codeNext() has to be called again
   // Time of other threads that coded it, too: as if each of them was busy all the while.
@@ -27,13 +27,13 @@ struct CodedPicture {
 // Quantisation and references of an atlas.
 struct VideoStart {
   uint32_t qp = 24;
-  // Encoders that coded the atlas before, and will code the next; nullptr = it is coded alone.
+  // The encoder that coded the atlas before, and will code the next; nullptr = it is coded alone.
   std::shared_ptr<VideoChain> chain = nullptr;
-  bool is_self_contained = true;  // of a chain: no picture refers to the atlas before
+  bool is_self_contained = true;  // of a chain: the first picture needs no other
 };
 
-// Strips come in any order and from any thread. Pictures are coded one after the other, each once
-// all its rows are there and the one before it is coded.
+// Pictures count in the order of coding. Strips come in any order and from any thread. Pictures are
+// coded one after the other, each once all its rows are there and the one before it is coded.
 // Thread-safety: put() from any thread; codeNext() from one thread at a time, as its users are
 // told.
 class VideoAtlas {
@@ -44,7 +44,7 @@ class VideoAtlas {
   void begin(VideoStart start) { start_ = std::move(start); }
   uint32_t pictureCount() const { return uint32_t(pictures_.size()); }
   // Rows of a picture, each once. True: codeNext() has to be called, by whoever is told.
-  bool put(uint32_t picture, const BandPixels& rows, BytePool& pool);
+  bool put(uint32_t place, const BandPixels& rows, BytePool& pool);
   // Codes the next picture. After an error the atlas cannot go on.
   absl::StatusOr<CodedPicture> codeNext(VideoEncoders& encoders, BytePool& bytes);
   // Time that coding has taken so far, of all threads together. For whoever knows that no picture
@@ -57,13 +57,13 @@ class VideoAtlas {
     uint32_t rows_left = 0;
   };
 
-  std::shared_ptr<PicturePlanes> planesOf(uint32_t picture, BytePool& pool);
+  std::shared_ptr<PicturePlanes> planesOf(uint32_t place, BytePool& pool);
   // With the lock.
   bool isNextReady() const;
-  // The slot of the picture's encoder.
-  std::unique_ptr<VideoEncoder>& slotOf(uint32_t picture);
-  // Fills the slot if need be, and sets the quantisation. What the picture refers to.
-  absl::StatusOr<Reference> prepare(std::unique_ptr<VideoEncoder>& encoder, uint32_t picture,
+  // The slot of the encoder.
+  std::unique_ptr<VideoEncoder>& slot() { return start_.chain ? start_.chain->encoder : encoder_; }
+  // Fills the slot if need be, and sets the quantisation. The reference of the picture.
+  absl::StatusOr<Reference> prepare(std::unique_ptr<VideoEncoder>& encoder, uint32_t place,
                                     VideoEncoders& encoders);
 
   const SizePx picture_px_;

@@ -42,8 +42,14 @@ bool AtlasChain::isDue() const {
   return is_due_;
 }
 
-uint64_t AtlasChain::begin(uint64_t sequence, int64_t now_ns) {
+PictureOrder AtlasChain::nextOrder() const {
   std::lock_guard lock(mutex_);
+  return next_order_;
+}
+
+uint64_t AtlasChain::begin(uint64_t sequence, int64_t now_ns, PictureOrder order) {
+  std::lock_guard lock(mutex_);
+  next_order_ = order == PictureOrder::kForward ? PictureOrder::kBackward : PictureOrder::kForward;
   is_due_ = false;
   const bool is_broken = begun_sequence_ != whole_sequence_;
   const uint64_t before = std::exchange(begun_sequence_, sequence);

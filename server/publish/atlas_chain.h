@@ -7,6 +7,7 @@
 #include <memory>
 #include <mutex>
 
+#include "display/video_stack.h"
 #include "encode/video_chain.h"
 
 namespace viewloom {
@@ -32,11 +33,13 @@ class AtlasChain {
   // The newest atlas is to be made again, and has not begun yet.
   bool isDue() const;
 
-  // For the encoders, one atlas after the other. Sequence of the atlas that this one refers to;
+  // Order of the pictures of the next atlas, with which the fewest bytes are coded.
+  PictureOrder nextOrder() const;
+  // For the encoder, one atlas after the other. Sequence of the atlas that this one refers to;
   // 0 = it needs no other.
-  uint64_t begin(uint64_t sequence, int64_t now_ns);
+  uint64_t begin(uint64_t sequence, int64_t now_ns, PictureOrder order = PictureOrder::kForward);
   void noteWhole(uint64_t sequence);
-  const std::shared_ptr<VideoChain>& encoders() const { return encoders_; }
+  const std::shared_ptr<VideoChain>& coder() const { return coder_; }
 
  private:
   static constexpr int64_t kNever_ns = std::numeric_limits<int64_t>::min();
@@ -45,13 +48,14 @@ class AtlasChain {
   bool isApart(int64_t now_ns) const;
   bool comesAlone() const { return begun_sequence_ != 0 && begun_sequence_ == alone_sequence_; }
 
-  const std::shared_ptr<VideoChain> encoders_ = std::make_shared<VideoChain>();
+  const std::shared_ptr<VideoChain> coder_ = std::make_shared<VideoChain>();
   mutable std::mutex mutex_;  // guards what follows
   bool is_wanted_ = false;
   bool is_due_ = false;
   uint64_t begun_sequence_ = 0;  // 0 = none yet
   uint64_t whole_sequence_ = 0;  // likewise
   int64_t begun_ns_ = kNever_ns;
+  PictureOrder next_order_ = PictureOrder::kForward;
   uint64_t alone_sequence_ = 0;  // the last one that needs no other
   int64_t alone_ns_ = kNever_ns;
   bool was_apart_ = true;  // isApart(), when it was last asked

@@ -2,6 +2,7 @@
 #include "rpc/atlas_messages.h"
 
 #include <algorithm>
+#include <functional>
 #include <span>
 #include <utility>
 
@@ -82,7 +83,7 @@ struct PlaneBands {
   size_t band_count = 0;
 };
 
-// Sorted by image, then plane.
+// Sorted by image in the order of the pictures, then plane.
 std::vector<PlaneBands> planeBandsOf(const EncodedAtlas& atlas) {
   std::vector<PlaneBands> planes;
   for (size_t i = 0; i < atlas.bands.size(); ++i) {
@@ -93,7 +94,11 @@ std::vector<PlaneBands> planeBandsOf(const EncodedAtlas& atlas) {
     }
     ++planes.back().band_count;
   }
-  std::ranges::stable_sort(planes, {}, &PlaneBands::image_index);
+  if (atlas.picture_order == PictureOrder::kForward) {
+    std::ranges::stable_sort(planes, std::less(), &PlaneBands::image_index);
+  } else {
+    std::ranges::stable_sort(planes, std::greater(), &PlaneBands::image_index);
+  }
   return planes;
 }
 
@@ -212,6 +217,7 @@ grpc::ByteBuffer AtlasMessages::header() const {
   header.set_defaults_reason(reasonToProto(atlas_.taking.reason));
   header.set_timing(timingToProto(atlas_.timing));
   header.set_reference_sequence(atlas_.reference_sequence);
+  header.set_is_backward(atlas_.picture_order == PictureOrder::kBackward);
   header.set_discardable(!isChained(atlas_.encoding));
   header.set_video_qp(atlas_.video_qp);
   for (const ViewsOutside& views : viewsOutside(atlas_.outside_shares)) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "web/atlas_message.h"
 
+#include <algorithm>
+
 #include <nlohmann/json.hpp>
 
 #include "frame/timing.h"
@@ -32,12 +34,20 @@ json coverageJson(const Coverage& coverage) {
           {"empty", share(coverage.empty)}};
 }
 
-std::vector<SharedBytes> bandsOf(const EncodedAtlas& atlas, AtlasPlane plane) {
-  std::vector<SharedBytes> bands;
+// From the first image to the last, also where pictures of video come backward.
+std::vector<const EncodedBand*> depthBands(const EncodedAtlas& atlas) {
+  std::vector<const EncodedBand*> bands;
   for (const EncodedBand& band : atlas.bands) {
-    if (band.plane == plane) bands.push_back(band.bytes);
+    if (band.plane == AtlasPlane::kDepth) bands.push_back(&band);
   }
+  std::ranges::stable_sort(bands, {}, &EncodedBand::image_index);
   return bands;
+}
+
+uint64_t depthBytes(const EncodedAtlas& atlas) {
+  uint64_t size_bytes = 0;
+  for (const EncodedBand* band : depthBands(atlas)) size_bytes += band->bytes->size();
+  return size_bytes;
 }
 
 const char* reasonText(DefaultsReason reason) {
@@ -84,11 +94,10 @@ bool isVideo(const EncodedAtlas& atlas) {
 json depthBandsJson(const EncodedAtlas& atlas) {
   const uint32_t image_rows = atlas.layout->imageSize().height;
   json bands = json::array();
-  for (const EncodedBand& band : atlas.bands) {
-    if (band.plane != AtlasPlane::kDepth) continue;
-    bands.push_back({{"first_row", image_rows * band.image_index + band.first_row},
-                     {"row_count", band.row_count},
-                     {"bytes", band.bytes->size()}});
+  for (const EncodedBand* band : depthBands(atlas)) {
+    bands.push_back({{"first_row", image_rows * band->image_index + band->first_row},
+                     {"row_count", band->row_count},
+                     {"bytes", band->bytes->size()}});
   }
   return bands;
 }
@@ -116,7 +125,7 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
                  {"defaults_reason", reasonText(atlas.taking.reason)},
                  {"method", atlas.method == TraceMethod::kSweep ? "sweep" : "walk"},
                  {"jpeg_bytes", isVideo(atlas) ? 0 : sizeOf(colorBands(atlas))},
-                 {"depth_bytes", sizeOf(bandsOf(atlas, AtlasPlane::kDepth))},
+                 {"depth_bytes", depthBytes(atlas)},
                  {"delivery", delivery.delivery},
                  {"change_count", delivery.change_count},
                  {"dropped_count", delivery.dropped_count},
@@ -125,6 +134,7 @@ json headerJson(const EncodedAtlas& atlas, const Delivery& delivery) {
   if (isVideo(atlas)) {
     header["video_qp"] = atlas.video_qp;
     header["reference_sequence"] = atlas.reference_sequence;
+    header["is_backward"] = atlas.picture_order == PictureOrder::kBackward;
     for (const SharedBytes& picture : colorBands(atlas)) {
       header["picture_bytes"].push_back(picture->size());
     }
@@ -149,7 +159,7 @@ AtlasMessage::AtlasMessage(AtlasPtr atlas, const Delivery& delivery)
   parts_.emplace_back(header_length_);
   parts_.emplace_back(reinterpret_cast<const uint8_t*>(header_.data()), length);
   for (const SharedBytes& band : colorBands(*atlas_)) parts_.emplace_back(*band);
-  for (const SharedBytes& band : bandsOf(*atlas_, AtlasPlane::kDepth)) parts_.emplace_back(*band);
+  for (const EncodedBand* band : depthBands(*atlas_)) parts_.emplace_back(*band->bytes);
 }
 
 uint64_t AtlasMessage::sizeBytes() const {
@@ -159,7 +169,11 @@ uint64_t AtlasMessage::sizeBytes() const {
 }
 
 std::vector<SharedBytes> colorBands(const EncodedAtlas& atlas) {
-  return bandsOf(atlas, AtlasPlane::kColor);
+  std::vector<SharedBytes> bands;
+  for (const EncodedBand& band : atlas.bands) {
+    if (band.plane == AtlasPlane::kColor) bands.push_back(band.bytes);
+  }
+  return bands;
 }
 
 }  // namespace viewloom

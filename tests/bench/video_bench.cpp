@@ -172,7 +172,7 @@ Json measureChain(const Device& device, const LoadMaker& maker, const std::strin
   const Coded same = atError(chains, jpeg.psnr_db);
   const Coded first = atError(firsts, jpeg.psnr_db);
   return {{"name", name},
-          {"pictures", codings.front().chainedPictureCount()},
+          {"pictures", codings.front().pictureCount()},
           {"jpeg_quality", kQuality},
           {"jpeg", jsonOf(jpeg)},
           {"h264_at_psnr_of_jpeg", jsonOf(same)},

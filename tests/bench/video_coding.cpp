@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "picture/atlas_strips.h"
 #include "rpc/layout_to_proto.h"
 #include "shared/ycbcr.h"
 #include "support/ycbcr_planes.h"
@@ -23,8 +24,8 @@ double usedMs() {
 // Rows that worker threads hand on at a time.
 constexpr uint32_t kStripRows = 128;
 
-AtlasLayout stackedOf(AtlasLayout layout, Prediction prediction) {
-  const absl::Status status = stackViews(layout, prediction);
+AtlasLayout stackedOf(AtlasLayout layout) {
+  const absl::Status status = stackViews(layout);
   if (!status.ok()) throw std::runtime_error(std::string(status.message()));
   return layout;
 }
@@ -72,11 +73,10 @@ VideoCoding::VideoCoding(const AtlasLayout& layout, std::vector<uint32_t> rgba)
     : quilt_(layout),
       rgba_(std::move(rgba)),
       quilt_planes_(planesOf(rgba_, quilt_.size_px)),
-      alone_(stackedAs(Prediction::kWithinAtlas)),
-      chained_(stackedAs(Prediction::kAcrossAtlases)) {}
+      stacked_(stackedViews()) {}
 
-VideoCoding::Stacked VideoCoding::stackedAs(Prediction prediction) const {
-  Stacked stacked{.layout = stackedOf(quilt_, prediction), .planes = {}};
+VideoCoding::Stacked VideoCoding::stackedViews() const {
+  Stacked stacked{.layout = stackedOf(quilt_), .planes = {}};
   stacked.planes = planesOf(stack(quilt_, stacked.layout, rgba_), stacked.layout.size_px);
   return stacked;
 }
@@ -128,7 +128,7 @@ Coded VideoCoding::asJpeg(uint32_t quality) {
 Coded VideoCoding::asVideo(uint32_t qp) {
   const EncodingSpec encoding = {.color = BandEncoding::kH264, .video_qp = qp};
   Coded coded;
-  const Atlas atlas = codePictures(alone_, encoding, {.qp = qp}, coded);
+  const Atlas atlas = codePictures(encoding, {.qp = qp}, PictureOrder::kForward, coded);
   ColorDecoder decoder;
   finish(atlas, decoder, coded);
   return coded;
@@ -139,34 +139,34 @@ Coded VideoCoding::asChained(uint32_t qp, ChainEnds& chain) {
       .color = BandEncoding::kH264, .video_qp = qp, .prediction = Prediction::kAcrossAtlases};
   const uint64_t before = chain.sequence++;
   Coded coded;
-  Atlas atlas =
-      codePictures(chained_, encoding,
-                   {.qp = qp, .chain = chain.encoders, .is_self_contained = before == 0}, coded);
+  const auto order = before % 2 == 0 ? PictureOrder::kForward : PictureOrder::kBackward;
+  Atlas atlas = codePictures(
+      encoding, {.qp = qp, .chain = chain.coder, .is_self_contained = before == 0}, order, coded);
   atlas.header.set_sequence(chain.sequence);
+  atlas.header.set_is_backward(order == PictureOrder::kBackward);
   atlas.header.set_reference_sequence(before);
   finish(atlas, chain.decoder, coded);
   return coded;
 }
 
-Atlas VideoCoding::codePictures(const Stacked& stacked, const EncodingSpec& encoding,
-                                VideoStart start, Coded& coded) {
-  const AtlasLayout& layout = stacked.layout;
-  const BandPixels pixels = planarPixels(stacked.planes, layout.size_px, ColorForm::kYcbcr420);
+Atlas VideoCoding::codePictures(const EncodingSpec& encoding, VideoStart start, PictureOrder order,
+                                Coded& coded) {
+  const AtlasLayout& layout = stacked_.layout;
+  const AtlasStrips strips(layout, kStripRows, order);
+  const BandPixels pixels = planarPixels(stacked_.planes, layout.size_px, ColorForm::kYcbcr420);
   const uint32_t height_px = layout.imageSize().height;
   std::vector<EncodedBand> bands;
   const double begun_ms = usedMs();
   VideoAtlas video(*layout.stack, encoding.video_qp);
   video.begin(std::move(start));
-  for (uint32_t picture = 0; picture < layout.stack->picture_count; ++picture) {
-    for (uint32_t row = 0; row < height_px; row += kStripRows) {
-      BandPixels rows =
-          rowsOf(pixels, picture * height_px + row, std::min(kStripRows, height_px - row));
-      rows.first_row = row;
-      video.put(picture, rows, planes_);
-    }
+  for (uint32_t strip = 0; strip < strips.count(); ++strip) {
+    const BandRows place = strips.rowsOf(strip);
+    BandPixels rows = rowsOf(pixels, place.first_row, place.row_count);
+    rows.first_row = strips.rowInImage(strip);
+    if (!video.put(strips.placeOf(strip), rows, planes_)) continue;
     absl::StatusOr<CodedPicture> made = video.codeNext(encoders_, bytes_);
     if (!made.ok()) throw std::runtime_error(std::string(made.status().message()));
-    bands.push_back({.image_index = picture,
+    bands.push_back({.image_index = strips.imageAt(made->place),
                      .row_count = height_px,
                      .encoding = BandEncoding::kH264,
                      .bytes = std::move(made->bytes)});

@@ -26,7 +26,7 @@ struct Coded {
 
 // Server and client of chained video, between two atlases. Thread-safety: none.
 struct ChainEnds {
-  std::shared_ptr<VideoChain> encoders = std::make_shared<VideoChain>();
+  std::shared_ptr<VideoChain> coder = std::make_shared<VideoChain>();
   ColorDecoder decoder;
   uint64_t sequence = 0;  // of the last atlas; 0 = none
 };
@@ -37,8 +37,7 @@ class VideoCoding {
   // Pixels of a layout without a stack: uint32_t[row][column], red in the low byte.
   VideoCoding(const AtlasLayout& layout, std::vector<uint32_t> rgba);
 
-  uint32_t pictureCount() const { return alone_.layout.stack->picture_count; }
-  uint32_t chainedPictureCount() const { return chained_.layout.stack->picture_count; }
+  uint32_t pictureCount() const { return stacked_.layout.stack->picture_count; }
   Coded asJpeg(uint32_t quality);
   Coded asVideo(uint32_t qp);
   // Codes it as the next atlas of a chain. The first needs no other.
@@ -51,8 +50,8 @@ class VideoCoding {
     std::vector<uint8_t> planes;
   };
 
-  Stacked stackedAs(Prediction prediction) const;
-  Atlas codePictures(const Stacked& stacked, const EncodingSpec& encoding, VideoStart start,
+  Stacked stackedViews() const;
+  Atlas codePictures(const EncodingSpec& encoding, VideoStart start, PictureOrder order,
                      Coded& coded);
   Atlas emptyAtlas(const AtlasLayout& layout, const EncodingSpec& encoding) const;
   void finish(const Atlas& atlas, ColorDecoder& decoder, Coded& coded) const;
@@ -60,8 +59,7 @@ class VideoCoding {
   AtlasLayout quilt_;
   std::vector<uint32_t> rgba_;         // of the quilt
   std::vector<uint8_t> quilt_planes_;  // as engines make them: Y'CbCr 4:2:0
-  Stacked alone_;
-  Stacked chained_;
+  Stacked stacked_;
   BytePool bytes_{64};
   BytePool planes_{64};
   BandEncoder jpeg_{bytes_};

@@ -56,6 +56,8 @@ class Follower {
   Watcher watcher_;       // last: it calls
 };
 
+constexpr uint32_t kPictures = 20;  // a view each
+
 v1::OpenDisplay chainedQuilt() {
   v1::OpenDisplay open = asVideo(smallQuilt(), 20);
   open.set_count(0);
@@ -97,8 +99,13 @@ TEST_F(ServiceChainedVideoTest, refersToTheAtlasBeforeAndShowsEachFrame) {
   uint64_t before = 0;
   for (const Decoded& one : all) {
     EXPECT_EQ(one.atlas.layout->encoding().prediction(), v1::PREDICTION_ACROSS_ATLASES);
-    EXPECT_EQ(one.atlas.layout->video().picture_count(), 4u);
+    EXPECT_EQ(one.atlas.layout->video().picture_count(), kPictures);
     EXPECT_EQ(one.atlas.header.reference_sequence(), before);
+    // The first picture to come has the views of the last one before.
+    EXPECT_EQ(one.atlas.header.is_backward(), before % 2 == 1);
+    const uint32_t first_index = one.atlas.header.is_backward() ? kPictures - 1 : 0;
+    EXPECT_EQ(one.atlas.bands.front().image_index, first_index);
+    EXPECT_EQ(one.atlas.bands.back().image_index, kPictures - 1 - first_index);
     EXPECT_FALSE(one.atlas.header.discardable());
     EXPECT_TRUE(one.color.ok()) << one.color.status();
     before = one.atlas.header.sequence();

@@ -13,7 +13,7 @@ import viewloom
 from viewloom import h264
 from viewloom.atlas import Band
 from viewloom.atlas_inbox import AtlasInbox
-from viewloom.stack import Chain
+from viewloom.stack import VideoDecoder
 from viewloom.v1 import atlas_pb2, display_pb2
 from viewloom.v1.display_service_pb2 import AtlasHeader, StreamAtlasesResponse
 
@@ -154,8 +154,10 @@ class Video(unittest.TestCase):
             units = coded[number][1]
             size = layout.video.picture_size
             inbox.add(StreamAtlasesResponse(header={
-                "sequence": number + 1, "reference_sequence": number, "band_count": len(units)}))
-            for index, unit in enumerate(units):
+                "sequence": number + 1, "reference_sequence": number, "band_count": len(units),
+                "is_backward": number % 2 == 1}))
+            for place, unit in enumerate(units):
+                index = len(units) - 1 - place if number % 2 == 1 else place
                 inbox.add(StreamAtlasesResponse(band={
                     "sequence": number + 1, "image_index": index,
                     "plane": atlas_pb2.ATLAS_PLANE_COLOR, "row_count": size.height,
@@ -174,16 +176,13 @@ class Video(unittest.TestCase):
         with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*refers to atlas 2"):
             add(2)
 
-    def test_a_chain_of_fewer_pictures_goes_no_further(self):
+    def test_a_chain_goes_on_only_from_an_atlas_that_was_decoded_whole(self):
         layout = layout_of(self.views, self.video)
-        layout.video.picture_count = 1
-        layout.view_count = layout.video.columns * layout.video.rows
-        chain = Chain()
-        self.addCleanup(chain.close)
-        chain.decode(self.units[:1], AtlasHeader(sequence=1), layout)
+        decoder = VideoDecoder()
+        self.addCleanup(decoder.close)
+        next(decoder.decode(self.units, AtlasHeader(sequence=1), layout))
         with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*refers to atlas 1"):
-            chain.decode(self.units, AtlasHeader(sequence=2, reference_sequence=1),
-                         layout_of(self.views, self.video))
+            list(decoder.decode(self.units, AtlasHeader(sequence=2, reference_sequence=1), layout))
 
     def test_chained_video_needs_video(self):
         with self.assertRaisesRegex(viewloom.BadInput, "chained"):

@@ -72,9 +72,10 @@ def message(header, payload):
 
 
 def code_stacks(program, atlases, qp, chained=False):
-    """By OpenH264, of uint8[view][y][x][3] each: [(VideoStack as JSON, access units)].
+    """By OpenH264, of uint8[view][y][x][3] each: [(VideoStack as JSON, access units as coded)].
 
-    chained: the pictures of each atlas but the first refer to those of the atlas before."""
+    chained: each atlas but the first refers to the one before. Every other one is backward: its
+    pictures are coded from the last to the first."""
     count, height, width = atlases[0].shape[:3]
     numbers = [str(width), str(height), str(count), str(qp)]
     run = subprocess.run([program, *numbers, *(["chained"] if chained else [])], check=True,
@@ -89,7 +90,7 @@ def code_stacks(program, atlases, qp, chained=False):
 
 
 def video_message(layout, video, units, reference_sequence=None, **header):
-    """reference_sequence: of chained video; 0 = it needs no other."""
+    """units: as coded. reference_sequence: of chained video; 0 = it needs no other."""
     chain = {} if reference_sequence is None else {"prediction": "ACROSS_ATLASES"}
     return message({"layout": {**layout, "video": video},
                     "encoding": {"color": "H264", "jpeg_quality": 85, "chroma": "420", **chain},

@@ -155,7 +155,8 @@ class Video(unittest.TestCase):
         layout = coded_atlases.layout_of(5, 3, views[0])
         for number, (video, units) in enumerate(coded, 1):
             self.files.contents[str(number)] = coded_atlases.video_message(
-                layout, video, units, sequence=number, reference_sequence=number - 1)
+                layout, video, units, sequence=number, reference_sequence=number - 1,
+                is_backward=number % 2 == 0)
         return layout, views
 
     def test_chained_atlases_are_decoded_in_order(self):

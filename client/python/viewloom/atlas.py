@@ -76,7 +76,7 @@ class Atlas:
     end:      what is known once it is whole: coverage, stage times (proto AtlasEnd).
     skipped:  atlases of this display that were made since the one before, and overtaken.
     stream:   the name of the stream.
-    pictures: of chained video, decoded as they came; else None.
+    pictures: of chained video, decoded as they came, with their numbers; else None.
     """
 
     layout: AtlasLayout
@@ -85,7 +85,7 @@ class Atlas:
     end: AtlasEnd = dataclasses.field(default_factory=AtlasEnd)
     skipped: int = 0
     stream: str = ""
-    pictures: Optional[list[h264.Picture]] = None
+    pictures: Optional[list[tuple[int, h264.Picture]]] = None
 
     def __repr__(self) -> str:
         tile = self.layout.tile_size
@@ -133,14 +133,16 @@ class Atlas:
         if plane == atlas_pb2.ATLAS_PLANE_COLOR and self.pictures is not None:
             return stack.painted(self.pictures, self.layout)
         if plane == atlas_pb2.ATLAS_PLANE_COLOR:
-            return stack.decoded(self.access_units(), self.layout)
+            alone = stack.VideoDecoder()
+            return stack.painted(alone.decode(self.access_units(), self.header, self.layout),
+                                 self.layout)
         pictures = [self._bands_of(plane, picture) for picture in range(video.picture_count)]
         return stack.unstacked(
             [self._unpacked(bands, plane, video.picture_size.width, video.picture_size.height)
              for bands in pictures], self.layout)
 
     def access_units(self) -> list[bytes]:
-        """Pictures of H.264, as they came. Raises BadInput where colour is no video."""
+        """Pictures of H.264, by their numbers. Raises BadInput where colour is no video."""
         if not self.layout.HasField("video"):
             raise BadInput("encoding", "is not H.264: there are no pictures of a video; use color")
         return [b"".join(band.data for band in self._bands_of(atlas_pb2.ATLAS_PLANE_COLOR, picture))

@@ -9,7 +9,7 @@ import grpc
 
 from viewloom.atlas import Atlas, Band
 from viewloom.errors import ViewloomError, data_loss
-from viewloom.stack import Chain
+from viewloom.stack import VideoDecoder
 from viewloom.tiles import check_layout
 from viewloom.v1 import display_service_pb2
 from viewloom.v1.atlas_pb2 import PREDICTION_ACROSS_ATLASES, AtlasLayout
@@ -37,7 +37,7 @@ class AtlasInbox:
         self._bands: list[Band] = []
         self._band_is_open = False
         self._bytes = 0
-        self._chain: Optional[Chain] = None  # of the layout, if its video is chained
+        self._chain: Optional[VideoDecoder] = None  # of the layout, if its video is chained
         self._newest: Optional[Atlas] = None
         self._skipped = 0  # since the newest one that was taken
         self.is_ended = False
@@ -54,7 +54,7 @@ class AtlasInbox:
             check_layout(response.layout)
             self._layout, self._header = response.layout, None
             is_chained = response.layout.encoding.prediction == PREDICTION_ACROSS_ATLASES
-            self._chain = (self._chain or Chain()) if is_chained else None
+            self._chain = (self._chain or VideoDecoder()) if is_chained else None
         elif kind == "header":  # what was begun, and has not ended, is discarded
             self._header, self._bands, self._band_is_open = response.header, [], False
             self._bytes = 0
@@ -96,7 +96,8 @@ class AtlasInbox:
         _take_outcome(self._header, end)
         atlas = Atlas(self._layout, self._header, self._bands, end, stream=self._stream)
         if self._chain is not None:  # the next one refers to it, also if nobody takes it
-            atlas.pictures = self._chain.decode(atlas.access_units(), self._header, self._layout)
+            atlas.pictures = list(self._chain.decode(atlas.access_units(), self._header,
+                                                     self._layout))
         self._newest = atlas
         self._header = None
 

@@ -36,8 +36,8 @@ def encoding(*, lossless: bool = False, depth: bool = False, mask: bool = False,
     lossless:      colour as it was traced, instead of as a JPEG.
     h264:          colour as a video through the views, at a quarter of the bytes of a JPEG.
     video_qp:      of H.264: quantisation, 20 (best) to 51; 0 = the error of jpeg_quality.
-    chained:       of H.264: pictures may refer to the atlas before. Takes fewer bytes with some
-                   scenes, and decodes every atlas, also those that nobody looks at.
+    chained:       of H.264: atlases refer to the one before. Takes fewer bytes, and decodes every
+                   atlas, also those that nobody looks at.
     depth, mask:   also the planes Atlas.inv_z and Atlas.mask, which are always lossless.
     jpeg_quality:  1..100; 0 = the server's default.
     chroma:        of a JPEG, 420 (half resolution) or 444; None = the server's default.

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, Sequence, TypeVar
+from typing import Any, Iterable, Iterator, Optional, Sequence, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,8 +17,6 @@ from viewloom.v1.atlas_pb2 import AtlasLayout, VideoStack
 from viewloom.v1.display_service_pb2 import AtlasHeader
 
 _Sample = TypeVar("_Sample", bound=np.generic)
-# Each takes a few megabytes. Servers make some tens of pictures at most.
-_DECODERS_MAX = 256
 
 
 def _check(layout: AtlasLayout) -> VideoStack:
@@ -77,11 +75,15 @@ def _view_rgb(picture: h264.Picture, left: int, top: int, width: int,
     return np.asarray(merged.convert("RGB"))
 
 
-def painted(pictures: Iterable[h264.Picture], layout: AtlasLayout) -> NDArray[np.uint8]:
-    """uint8[height_px][width_px][3], sRGB, of all views; read-only. Raises DATA_LOSS."""
+def painted(pictures: Iterable[tuple[int, h264.Picture]],
+            layout: AtlasLayout) -> NDArray[np.uint8]:
+    """uint8[height_px][width_px][3], sRGB, of all views; read-only. Raises DATA_LOSS.
+
+    pictures: with their numbers in the stack, in any order.
+    """
     video, tile = _check(layout), layout.tile_size
     whole = np.zeros((layout.size.height, layout.size.width, 3), np.uint8)
-    for index, picture in enumerate(pictures):
+    for index, picture in pictures:
         for view in range(index, layout.view_count, video.picture_count):
             _, left, top = _cell(video, view)
             view_window(whole, layout, view)[:] = _view_rgb(picture, left, top, tile.width,
@@ -96,53 +98,45 @@ def _check_count(access_units: Sequence[bytes], video: VideoStack) -> None:
                         f"{video.picture_count}")
 
 
-def decoded(access_units: Sequence[bytes], layout: AtlasLayout) -> NDArray[np.uint8]:
-    """As painted(), of an atlas that refers to no other."""
-    video = _check(layout)
-    _check_count(access_units, video)
-    size = video.picture_size
-    with h264.Decoder() as decoder:
-        return painted((decoder.decode(access_unit, size.width, size.height)
-                        for access_unit in access_units), layout)
+class VideoDecoder:
+    """Decodes the atlases of one display, which may refer to the one before.
 
-
-class Chain:
-    """Decodes the atlases of one display whose pictures refer to the atlas before.
-
-    Each picture of the stack is a stream, with a decoder of its own. Thread-safety: none.
+    Thread-safety: none.
     """
 
     def __init__(self) -> None:
-        self._decoders: list[h264.Decoder] = []
+        self._decoder: Optional[h264.Decoder] = None
         self._sequence = 0  # of the last atlas; 0 = none
 
     def __del__(self) -> None:
         self.close()
 
     def close(self) -> None:
-        """Frees the decoders. The next atlas has to be one that refers to no other."""
-        for decoder in self._decoders:
-            decoder.close()
-        self._decoders, self._sequence = [], 0
+        """Frees the decoder. The next atlas has to be one that refers to no other."""
+        if self._decoder is not None:
+            self._decoder.close()
+        self._decoder, self._sequence = None, 0
 
     def decode(self, access_units: Sequence[bytes], header: AtlasHeader,
-               layout: AtlasLayout) -> list[h264.Picture]:
-        """The pictures of the next atlas. Raises DATA_LOSS, also if one before it is missing."""
+               layout: AtlasLayout) -> Iterator[tuple[int, h264.Picture]]:
+        """The pictures of the next atlas, with their numbers. All have to be taken.
+
+        access_units: in the order of their numbers. Raises DATA_LOSS, also if the atlas before it
+        is missing.
+        """
         video = _check(layout)
-        _check_count(access_units, video)
-        if len(access_units) > _DECODERS_MAX:
-            raise data_loss(f"the layout has chained video of {len(access_units)} pictures; "
-                            f"accepted are up to {_DECODERS_MAX}")
+        if len(access_units) != video.picture_count:
+            raise data_loss(f"{len(access_units)} pictures of H.264 came, the layout has "
+                            f"{video.picture_count}")
         if header.reference_sequence == 0:
             self.close()
-            self._decoders = [h264.Decoder() for _ in access_units]
-        elif (header.reference_sequence != self._sequence
-              or len(self._decoders) != len(access_units)):
+            self._decoder = h264.Decoder()
+        elif self._decoder is None or header.reference_sequence != self._sequence:
             raise data_loss(f"atlas {header.sequence} refers to atlas {header.reference_sequence}, "
                             "which was not decoded before it")
         self._sequence = 0  # until it is decoded
-        size = video.picture_size
-        pictures = [decoder.decode(access_unit, size.width, size.height)
-                    for decoder, access_unit in zip(self._decoders, access_units)]
+        numbered = list(enumerate(access_units))
+        for index, access_unit in reversed(numbered) if header.is_backward else numbered:
+            yield index, self._decoder.decode(access_unit, video.picture_size.width,
+                                              video.picture_size.height)
         self._sequence = header.sequence
-        return pictures

@@ -140,10 +140,10 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const Strea
   return layout;
 }
 
-absl::Status stackViews(AtlasLayout& layout, Prediction prediction) {
+absl::Status stackViews(AtlasLayout& layout) {
   VIEWLOOM_CHECK(!layout.stack && std::holds_alternative<PinholeRays>(layout.rays));
   const absl::StatusOr<VideoStack> planned =
-      planVideoStack(layout.tile_size_px, uint32_t(layout.views.size()), prediction);
+      planVideoStack(layout.tile_size_px, uint32_t(layout.views.size()));
   VIEWLOOM_RETURN_IF_ERROR(planned.status());
   const SizePx picture_px = planned->pictureSize();
   layout.unstacked = layout.shown();

@@ -164,7 +164,7 @@ absl::StatusOr<AtlasLayout> makeAtlasLayout(const DisplaySpec& spec, const Strea
                                             const EyePoses* eyes = nullptr);
 // Moves the views from the arrangement that the display asks for into a stack. Expects a layout of
 // pinholes without one. RESOURCE_EXHAUSTED if a view is too large for video.
-absl::Status stackViews(AtlasLayout& layout, Prediction prediction = Prediction::kWithinAtlas);
+absl::Status stackViews(AtlasLayout& layout);
 // Tiles of a display, without a stream. Expects a completed spec.
 TileGrid tileGridOf(const DisplaySpec& spec);
 // Number of rays that an atlas takes, without gathered and reflected rays.

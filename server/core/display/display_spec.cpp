@@ -41,7 +41,7 @@ absl::Status refuseVideo(std::string_view what, std::string_view problem) {
                                       "; accepted are JPEG, JPEG_PLANES, ZSTD or RAW"));
 }
 
-absl::Status validateVideoOf(const DisplaySpec& spec, Prediction prediction) {
+absl::Status validateVideoOf(const DisplaySpec& spec) {
   if (std::holds_alternative<LenticularSpec>(spec.kind)) {
     return refuseVideo("a lenticular panel", "has another view in each subpixel");
   }
@@ -52,8 +52,7 @@ absl::Status validateVideoOf(const DisplaySpec& spec, Prediction prediction) {
     return refuseVideo("an RGBD display", "has depth, which video would change");
   }
   const TileGrid grid = tileGridOf(spec);
-  const absl::Status planned =
-      planVideoStack(grid.tile_size_px, grid.view_count, prediction).status();
+  const absl::Status planned = planVideoStack(grid.tile_size_px, grid.view_count).status();
   return planned.ok() ? planned : withFieldPrefix(planned, "color");
 }
 
@@ -210,7 +209,7 @@ uint32_t matchedVideoQp(uint32_t jpeg_quality) {
 }
 
 absl::Status validateEncodingOf(const DisplaySpec& spec, const EncodingSpec& encoding) {
-  if (encoding.color == BandEncoding::kH264) return validateVideoOf(spec, encoding.prediction);
+  if (encoding.color == BandEncoding::kH264) return validateVideoOf(spec);
   const bool shares_chroma =
       encoding.color == BandEncoding::kJpeg && encoding.chroma == Chroma::k420;
   if (!shares_chroma || tileGridOf(spec).rays_per_px == 1) return absl::OkStatus();

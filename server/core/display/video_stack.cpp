@@ -10,9 +10,8 @@ namespace {
 
 constexpr uint32_t kCellSideMin_px = 16;  // no encoder takes smaller pictures
 constexpr uint64_t kPictureAim_px = 3 << 19;
-// Pictures of a stack, where there are views enough: fewer predict worse within an atlas.
+// Pictures of a stack, where there are views enough: fewer predict worse.
 constexpr uint32_t kPictureCountMin = 12;
-constexpr uint32_t kChainedCountMin = 3;
 
 uint32_t ceilDivide(uint32_t value, uint32_t by) {
   return (value + by - 1) / by;
@@ -46,10 +45,9 @@ uint32_t columnsFor(uint32_t cell_count, SizePx cell_px) {
 }
 
 // Cells of a picture at most.
-uint32_t cellCountMax(SizePx cell_px, Prediction prediction) {
+uint32_t cellCountMax(SizePx cell_px) {
   const uint32_t fitting =
       kVideoPictureMax_px.width / cell_px.width * (kVideoPictureMax_px.height / cell_px.height);
-  if (prediction == Prediction::kAcrossAtlases) return fitting;
   const auto aimed = uint32_t(std::max<uint64_t>(kPictureAim_px / cell_px.area(), 1));
   return std::min(fitting, aimed);
 }
@@ -68,8 +66,7 @@ uint32_t VideoStack::viewAt(const StackCell& cell) const {
 
 // Counts of pictures from the least one to twice as many are tried. The one with the fewest empty
 // cells is taken.
-absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count,
-                                          Prediction prediction) {
+absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count) {
   VideoStack stack{.view_count = view_count,
                    .cell_px = {evenSide(view_px.width), evenSide(view_px.height)}};
   if (stack.cell_px.width > kVideoPictureMax_px.width ||
@@ -79,11 +76,9 @@ absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count,
                " px; accepted for video are views of up to ", kVideoPictureMax_px.width, "x",
                kVideoPictureMax_px.height, " px. Choose smaller views, or color as JPEG"));
   }
-  const uint32_t cell_max = cellCountMax(stack.cell_px, prediction);
-  const uint32_t count_min =
-      prediction == Prediction::kAcrossAtlases ? kChainedCountMin : kPictureCountMin;
+  const uint32_t cell_max = cellCountMax(stack.cell_px);
   const uint32_t least =
-      std::max(ceilDivide(view_count, cell_max), std::min(count_min, view_count));
+      std::max(ceilDivide(view_count, cell_max), std::min(kPictureCountMin, view_count));
   uint64_t best_empty = UINT64_MAX;
   for (uint32_t count = least; count <= std::min(2 * least, view_count); ++count) {
     const uint32_t cell_count = ceilDivide(view_count, count);

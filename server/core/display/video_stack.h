@@ -12,8 +12,13 @@ namespace viewloom {
 // Pictures that a picture of a video may refer to.
 enum class Prediction : uint8_t {
   kWithinAtlas,    // the one before in its atlas: each atlas can be decoded alone
-  kAcrossAtlases,  // the same picture of the atlas before: each picture is a stream of its own
+  kAcrossAtlases,  // likewise; the first one to the last one of the atlas before
 };
+
+// Order in which the pictures of an atlas are made, coded and sent. Chained atlases turn it round
+// each time: the first picture of an atlas then has the same views as the picture that it refers
+// to.
+enum class PictureOrder : uint8_t { kForward, kBackward };
 
 // Place of a cell of a stack, from the top left.
 struct StackCell {
@@ -42,12 +47,10 @@ struct VideoStack {
 // Largest side of a picture: hardware decoders stop there.
 inline constexpr SizePx kVideoPictureMax_px = {4096, 2176};
 
-// Plans the stack of so many views of one size. Within an atlas, pictures have about a million
-// pixels: smaller ones predict better, larger ones give decoders fewer calls. Across atlases there
-// are as few as can be, but three, so that coding begins early: each takes an encoder and a decoder
-// of its own. RESOURCE_EXHAUSTED if one view is larger than kVideoPictureMax_px.
-absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count,
-                                          Prediction prediction = Prediction::kWithinAtlas);
+// Plans the stack of so many views of one size. Pictures have about a million pixels: smaller ones
+// predict better, larger ones give decoders fewer calls. RESOURCE_EXHAUSTED if one view is larger
+// than kVideoPictureMax_px.
+absl::StatusOr<VideoStack> planVideoStack(SizePx view_px, uint32_t view_count);
 
 // Memory that an encoder of such pictures takes, bytes; within a tenth.
 uint64_t videoEncoderBytes(SizePx picture_px);

@@ -20,11 +20,9 @@ uint32_t limitOf(uint32_t given, uint32_t largest) {
   return given == 0 ? largest : given;
 }
 
-absl::Status checkPictures(const v1::AcceptedEncoding& accepted, const DisplaySpec& display,
-                           Prediction prediction) {
+absl::Status checkPictures(const v1::AcceptedEncoding& accepted, const DisplaySpec& display) {
   const TileGrid grid = tileGridOf(display);
-  const absl::StatusOr<VideoStack> stack =
-      planVideoStack(grid.tile_size_px, grid.view_count, prediction);
+  const absl::StatusOr<VideoStack> stack = planVideoStack(grid.tile_size_px, grid.view_count);
   VIEWLOOM_RETURN_IF_ERROR(stack.status());
   const SizePx picture_px = stack->pictureSize();
   const SizePx max_px = {limitOf(accepted.picture_size_max().width(), kVideoPictureMax_px.width),
@@ -48,7 +46,7 @@ absl::StatusOr<EncodingSpec> tryOne(const v1::AtlasEncoding& asked,
   absl::StatusOr<EncodingSpec> tried = encodingFromProto(encoding, display);
   VIEWLOOM_RETURN_IF_ERROR(tried.status());
   if (tried->color == BandEncoding::kH264) {
-    VIEWLOOM_RETURN_IF_ERROR(checkPictures(accepted, display, tried->prediction));
+    VIEWLOOM_RETURN_IF_ERROR(checkPictures(accepted, display));
   }
   return tried;
 }

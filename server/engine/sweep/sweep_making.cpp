@@ -50,7 +50,7 @@ struct SweptPlanes {
   std::once_flag has_begun;
 };
 
-// Images [first, end) of an atlas at once: their rows lie all over them.
+// Images at the places [first, end) of their order, at once: their rows lie all over them.
 struct SweptImages {
   uint32_t first = 0;
   uint32_t end = 1;
@@ -143,10 +143,12 @@ std::vector<SweptImages> sweptImages(const AtlasLayout& layout) {
 }
 
 // Rows of tiles of these images.
-GridRows gridRowsOf(const AtlasLayout& layout, SweptImages images) {
+GridRows gridRowsOf(const AtlasLayout& layout, const AtlasStrips& strips, SweptImages images) {
   const uint32_t per_image = layout.stack ? layout.stack->rows : 0;
   if (per_image == 0) return {0, layout.rows};
-  return {images.first * per_image, images.end * per_image};
+  const uint32_t one = strips.imageAt(images.first);
+  const uint32_t other = strips.imageAt(images.end - 1);
+  return {std::min(one, other) * per_image, (std::max(one, other) + 1) * per_image};
 }
 
 }  // namespace
@@ -159,7 +161,8 @@ SweepMaking::SweepMaking(const AtlasOrder& order, const TraceOutputs& planes,
   const auto swept = std::make_shared<SweptPlanes>();
   swept->atlas = std::move(atlas);
   for (const SweptImages images : sweptImages(layout)) {
-    const SweepPieces pieces(sweepOf(order), layout, planes_.color, gridRowsOf(layout, images));
+    const SweepPieces pieces(sweepOf(order), layout, planes_.color,
+                             gridRowsOf(layout, order.strips, images));
     works_.push_back(std::make_unique<AtlasSweep>(pieces, images, order, planes_, swept, sweepers));
   }
 }

@@ -2,8 +2,9 @@
 // Codes views as video, for tests and measurements of clients without a server.
 // Arguments: view width, view height, view count, quantisation (20..51), and "chained" where
 // atlases are to refer to the one before. Standard input: atlases of views, each
-// uint8_t[view][y][x][3] R, G, B. For each atlas it writes a line of JSON and the access units:
-// {"video": ..., "picture_bytes": [...]}, where video has the fields of proto VideoStack.
+// uint8_t[view][y][x][3] R, G, B. For each atlas it writes a line of JSON and the access units, in
+// the order of coding: {"video": ..., "picture_bytes": [...]}, where video has the fields of proto
+// VideoStack. Every other atlas of a chain is coded backward.
 #include <algorithm>
 #include <cstdlib>
 #include <iostream>
@@ -75,46 +76,19 @@ std::string headerOf(const VideoStack& stack, const std::vector<std::vector<uint
                 "]}\n");
 }
 
-// The encoders of a stack: one of each picture where atlases are chained, else one for all.
-class Encoders {
- public:
-  static absl::StatusOr<Encoders> make(const VideoStack& stack, uint32_t qp,
-                                       Prediction prediction) {
-    Encoders encoders(prediction);
-    const bool is_chained = prediction == Prediction::kAcrossAtlases;
-    for (uint32_t i = 0; i < (is_chained ? stack.picture_count : 1); ++i) {
-      auto encoder = OpenH264Encoder::make(viewFormat(stack.pictureSize(), qp));
-      VIEWLOOM_RETURN_IF_ERROR(encoder.status());
-      encoders.all_.push_back(*std::move(encoder));
-    }
-    return encoders;
-  }
-
-  // The first atlas of a chain needs no other.
-  absl::Status encode(const VideoPicture& picture, uint32_t index, bool is_first,
-                      std::vector<uint8_t>& unit) {
-    const bool is_chained = prediction_ == Prediction::kAcrossAtlases;
-    const bool refers = is_chained ? !is_first : index > 0;
-    return all_[is_chained ? index : 0]->encode(
-        picture, refers ? Reference::kPictureBefore : Reference::kNone, unit);
-  }
-
- private:
-  explicit Encoders(Prediction prediction) : prediction_(prediction) {}
-
-  Prediction prediction_;
-  std::vector<std::unique_ptr<OpenH264Encoder>> all_;
-};
-
-absl::Status writeAtlas(const Views& views, const VideoStack& stack, bool is_first,
-                        Encoders& encoders) {
+// Its first picture refers to the one before where it has to.
+absl::Status writeAtlas(const Views& views, const VideoStack& stack, Reference first,
+                        PictureOrder order, VideoEncoder& encoder) {
   std::vector<std::vector<uint8_t>> units(stack.picture_count);
-  for (uint32_t picture = 0; picture < stack.picture_count; ++picture) {
+  for (uint32_t place = 0; place < stack.picture_count; ++place) {
+    const uint32_t picture =
+        order == PictureOrder::kForward ? place : stack.picture_count - 1 - place;
     SamplePicture sample(stack.pictureSize());  // black where no view is
     for (uint32_t view = picture; view < stack.view_count; view += stack.picture_count) {
       putView(sample, stack.cell_px, stack.cellOf(view), views, view);
     }
-    VIEWLOOM_RETURN_IF_ERROR(encoders.encode(sample.video(), picture, is_first, units[picture]));
+    VIEWLOOM_RETURN_IF_ERROR(encoder.encode(
+        sample.video(), place == 0 ? first : Reference::kPictureBefore, units[place]));
   }
   std::cout << headerOf(stack, units);
   for (const auto& unit : units) {
@@ -124,15 +98,20 @@ absl::Status writeAtlas(const Views& views, const VideoStack& stack, bool is_fir
 }
 
 absl::Status codeAll(SizePx view_px, uint32_t view_count, uint32_t qp, Prediction prediction) {
-  const absl::StatusOr<VideoStack> stack = planVideoStack(view_px, view_count, prediction);
+  const absl::StatusOr<VideoStack> stack = planVideoStack(view_px, view_count);
   VIEWLOOM_RETURN_IF_ERROR(stack.status());
-  absl::StatusOr<Encoders> encoders = Encoders::make(*stack, qp, prediction);
-  VIEWLOOM_RETURN_IF_ERROR(encoders.status());
-  bool is_first = true;
+  const auto encoder = OpenH264Encoder::make(viewFormat(stack->pictureSize(), qp));
+  VIEWLOOM_RETURN_IF_ERROR(encoder.status());
+  const bool is_chained = prediction == Prediction::kAcrossAtlases;
+  auto first = Reference::kNone;
+  auto order = PictureOrder::kForward;
   Views views{.view_px = view_px, .rgb = std::vector<uint8_t>(view_px.area() * 3 * view_count)};
   while (
       std::cin.read(reinterpret_cast<char*>(views.rgb.data()), std::streamsize(views.rgb.size()))) {
-    VIEWLOOM_RETURN_IF_ERROR(writeAtlas(views, *stack, std::exchange(is_first, false), *encoders));
+    VIEWLOOM_RETURN_IF_ERROR(writeAtlas(views, *stack, first, order, **encoder));
+    if (!is_chained) continue;
+    first = Reference::kPictureBefore;
+    order = order == PictureOrder::kForward ? PictureOrder::kBackward : PictureOrder::kForward;
   }
   return absl::OkStatus();
 }

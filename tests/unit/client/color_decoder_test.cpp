@@ -48,42 +48,6 @@ TEST(ColorDecoder, refusesAnAtlasThatRefersToAMissingOne) {
   expectGreys(decoder.decode(coder.code(4, 0, 120)), 120);
 }
 
-TEST(ColorDecoder, refusesAnAtlasOfMorePicturesThanTheOneItRefersTo) {
-  Coder coder;
-  ColorDecoder decoder;
-  expectGreys(decoder.decode(coder.code(1, 0, 40)), 40);
-  Atlas larger = coder.code(2, 1, 60);
-  v1::AtlasLayout layout = *larger.layout;
-  layout.mutable_size()->set_width((kViews + 1) * kView_px.width);
-  layout.set_columns(kViews + 1);
-  layout.set_view_count(kViews + 1);
-  layout.mutable_video()->set_picture_count(kViews + 1);
-  larger.layout = std::make_shared<const v1::AtlasLayout>(layout);
-  larger.bands.push_back(larger.bands.back());
-  larger.bands.back().image_index = kViews;
-  EXPECT_EQ(decoder.decode(larger).status().code(), absl::StatusCode::kFailedPrecondition);
-  expectGreys(decoder.decode(coder.code(3, 0, 120)), 120);
-}
-
-TEST(ColorDecoder, boundsItsDecoders) {
-  constexpr uint32_t kCount = 257;
-  const Atlas first = Coder().code(1, 0, 40);
-  Atlas atlas{.layout = {}, .header = first.header, .end = {}, .bands = {}};
-  v1::AtlasLayout layout = *first.layout;
-  layout.mutable_size()->set_width(kCount * kView_px.width);
-  layout.set_columns(kCount);
-  layout.set_view_count(kCount);
-  layout.mutable_video()->set_picture_count(kCount);
-  atlas.layout = std::make_shared<const v1::AtlasLayout>(layout);
-  for (uint32_t view = 0; view < kCount; ++view) {
-    atlas.bands.push_back(first.bands.front());
-    atlas.bands.back().image_index = view;
-  }
-  const absl::Status refused = ColorDecoder().decode(atlas).status();
-  EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
-  EXPECT_THAT(std::string(refused.message()), testing::HasSubstr("257 pictures"));
-}
-
 TEST(ColorDecoder, refusesWhatFollowsADamagedAtlas) {
   Coder coder;
   ColorDecoder decoder;
@@ -94,22 +58,6 @@ TEST(ColorDecoder, refusesWhatFollowsADamagedAtlas) {
   EXPECT_EQ(decoder.decode(coder.code(3, 2, 90)).status().code(),
             absl::StatusCode::kFailedPrecondition);
   expectGreys(decoder.decode(coder.code(4, 0, 120)), 120);
-}
-
-TEST(ColorDecoder, refusesAStackOfMorePicturesThanTheAtlasBeforeHad) {
-  Coder coder;
-  ColorDecoder decoder;
-  const Atlas larger = coder.code(2, 1, 60);
-  Atlas first = coder.code(1, 0, 40);
-  v1::AtlasLayout layout = *first.layout;
-  layout.set_view_count(1);
-  layout.set_columns(1);
-  layout.mutable_size()->set_width(kView_px.width);
-  layout.mutable_video()->set_picture_count(1);
-  first.layout = std::make_shared<const v1::AtlasLayout>(layout);
-  first.bands.pop_back();
-  ASSERT_TRUE(decoder.decode(first).ok());
-  EXPECT_EQ(decoder.decode(larger).status().code(), absl::StatusCode::kFailedPrecondition);
 }
 
 TEST(ColorDecoder, isNeededOnlyForAtlasesThatReferToOthers) {

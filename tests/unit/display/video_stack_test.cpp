@@ -8,9 +8,8 @@
 namespace viewloom::test::video_stack_test {
 namespace {
 
-VideoStack planned(SizePx view_px, uint32_t view_count,
-                   Prediction prediction = Prediction::kWithinAtlas) {
-  const auto stack = planVideoStack(view_px, view_count, prediction);
+VideoStack planned(SizePx view_px, uint32_t view_count) {
+  const auto stack = planVideoStack(view_px, view_count);
   EXPECT_TRUE(stack.ok()) << stack.status();
   return stack.value_or(VideoStack{});
 }
@@ -24,18 +23,6 @@ TEST(VideoStack, putsNeighbouringViewsIntoNeighbouringPictures) {
     EXPECT_EQ(cell.picture, view % 12);
     EXPECT_EQ(portrait.viewAt(cell), view);
   }
-}
-
-TEST(VideoStack, hasFewLargePicturesWhereTheyAreChained) {
-  const VideoStack portrait = planned({420, 560}, 48, Prediction::kAcrossAtlases);
-  EXPECT_EQ(portrait.picture_count, 3u);
-  EXPECT_EQ(portrait.pictureSize(), (SizePx{3360, 1120}));
-  EXPECT_EQ(planned({640, 480}, 1, Prediction::kAcrossAtlases).picture_count, 1u);
-  EXPECT_EQ(planned({640, 480}, 2, Prediction::kAcrossAtlases).picture_count, 2u);
-  // A display of 67 million pixels.
-  const VideoStack large = planned({819, 1024}, 80, Prediction::kAcrossAtlases);
-  EXPECT_EQ(large.pictureSize(), (SizePx{3280, 2048}));
-  EXPECT_EQ(large.picture_count, 10u);
 }
 
 // From one pixel to a display of 67 million, with views that are never the same twice.

@@ -14,7 +14,8 @@ namespace {
 
 const VideoStack kStack = {.view_count = 3, .picture_count = 3, .cell_px = {64, 48}};
 
-AtlasRun runOf(BandEncoding color, const std::vector<VideoRung>& rungs = {VideoRung::kFirst}) {
+AtlasRun runOf(BandEncoding color, const std::vector<VideoRung>& rungs = {VideoRung::kFirst},
+               const std::shared_ptr<AtlasChain>& chain = nullptr) {
   auto layout = std::make_shared<AtlasLayout>();
   layout->size_px = {64, 3 * 48};
   layout->tile_size_px = {64, 48};
@@ -27,6 +28,7 @@ AtlasRun runOf(BandEncoding color, const std::vector<VideoRung>& rungs = {VideoR
     auto display = std::make_shared<ActiveDisplay>();
     display->encoding.color = color;
     display->encoding.rung = rung;
+    display->chain = chain;
     displays.push_back(std::move(display));
   }
   return {AtlasJob{.picture_key = "views", .structure = std::make_shared<ResidentStructure>()},
@@ -50,6 +52,23 @@ TEST(AtlasRun, holdsTheMemoryOfItsVideo) {
   stills.noteOlder();
   EXPECT_EQ(budget.reservedBytes(MemoryUse::kAtlases), 0U);
   EXPECT_FALSE(stills.isWaitedFor());
+}
+
+// Strips of the last picture come first then, in all that count them.
+TEST(AtlasRun, isMadeInTheOrderOfItsChain) {
+  const auto chain = std::make_shared<AtlasChain>();
+  EXPECT_EQ(runOf(BandEncoding::kH264).strips.order(), PictureOrder::kForward);
+  EXPECT_EQ(runOf(BandEncoding::kH264, {VideoRung::kFirst}, chain).strips.imageAt(0), 0U);
+  chain->begin(1, 0, PictureOrder::kForward);
+  const AtlasStrips strips = runOf(BandEncoding::kH264, {VideoRung::kFirst}, chain).strips;
+  ASSERT_EQ(strips.count() % 3, 0U);
+  EXPECT_EQ(strips.placeOf(0), 0U);
+  EXPECT_EQ(strips.imageAt(0), 2U);
+  EXPECT_EQ(strips.rowsOf(0).first_row, 2U * 48);
+  EXPECT_EQ(strips.rowInImage(0), 0U);
+  const uint32_t last = strips.count() - 1;
+  EXPECT_EQ(strips.imageAt(strips.placeOf(last)), 0U);
+  EXPECT_EQ(strips.rowsOf(last).first_row + strips.rowsOf(last).row_count, 48U);
 }
 
 // A device is faster than the coding of its pictures, which would pile up.

@@ -27,6 +27,17 @@ TEST_F(AtlasChainTest, refersToTheAtlasBefore) {
   EXPECT_EQ(make(66 * kMs), 2u);
 }
 
+TEST_F(AtlasChainTest, turnsTheOrderOfThePicturesRound) {
+  EXPECT_EQ(chain_.nextOrder(), PictureOrder::kForward);
+  chain_.begin(1, 0, PictureOrder::kForward);
+  EXPECT_EQ(chain_.nextOrder(), PictureOrder::kBackward);
+  chain_.begin(2, 33 * kMs, PictureOrder::kBackward);
+  EXPECT_EQ(chain_.nextOrder(), PictureOrder::kForward);
+  // Another display of the same picture had decided.
+  chain_.begin(3, 66 * kMs, PictureOrder::kBackward);
+  EXPECT_EQ(chain_.nextOrder(), PictureOrder::kForward);
+}
+
 TEST_F(AtlasChainTest, needsNoOtherAfterOneThatWasNotCompleted) {
   make(0);
   EXPECT_EQ(chain_.begin(++sequence_, 33 * kMs), 1u);

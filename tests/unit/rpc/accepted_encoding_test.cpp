@@ -134,11 +134,11 @@ TEST(AcceptedEncoding, chainsAtlasesWhereThatIsAskedFor) {
   EXPECT_TRUE(isChained(*chooseEncoding(asked, {}, displayOf("portrait"))));
   asked.set_color(v1::BAND_ENCODING_JPEG);
   EXPECT_FALSE(isChained(*chooseEncoding(asked, {}, displayOf("portrait"))));
-  // Pictures of chained atlases are larger: 3360x1120 px of a Portrait.
+  // Pictures of a Portrait have 840x1120 px.
   asked.clear_color();
   AcceptedEncodings accepted = accepting({v1::BAND_ENCODING_H264, v1::BAND_ENCODING_ZSTD});
   EXPECT_TRUE(isChained(*chooseEncoding(asked, accepted, displayOf("portrait"))));
-  accepted[0].mutable_picture_size_max()->set_width(1920);
+  accepted[0].mutable_picture_size_max()->set_width(800);
   EXPECT_EQ(chooseEncoding(asked, accepted, displayOf("portrait"))->color, BandEncoding::kZstd);
 }
 

@@ -118,6 +118,21 @@ TEST(AtlasMessage, countsTheRowsOfCompactDepthThroughAllPictures) {
   EXPECT_EQ(bands.at(0).at("first_row"), layout->stack->pictureSize().height);
 }
 
+// Readers of depth know nothing of the order of the video.
+TEST(AtlasMessage, holdsDepthFromTheFirstPictureOnThoughThoseOfTheVideoComeBackward) {
+  const auto atlas = someAtlas();
+  atlas->encoding = {.color = BandEncoding::kH264, .with_depth = true};
+  atlas->picture_order = PictureOrder::kBackward;
+  atlas->bands[0].image_index = 1;
+  atlas->bands[2].image_index = 1;
+  atlas->bands.push_back(bandOf(AtlasPlane::kDepth, {8}));
+  EXPECT_EQ(headerOf(atlas).at("is_backward"), true);
+  EXPECT_EQ(headerOf(atlas).at("picture_bytes"), nlohmann::json::parse("[2, 1]"));
+  const std::vector<uint8_t> bytes = joined(AtlasMessage(atlas, {}));
+  EXPECT_EQ(std::vector<uint8_t>(bytes.end() - 6, bytes.end()),
+            (std::vector<uint8_t>{1, 2, 3, 8, 9, 9}));
+}
+
 TEST(AtlasMessage, holdsTheTimesOfItsStages) {
   const auto atlas = someAtlas();
   atlas->times = {.build_ns = 4, .retime_ns = 5, .total_ns = 20};
