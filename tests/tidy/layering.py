@@ -32,7 +32,7 @@ LAYERS = {
     "server/core/messages": (["base", "frame", "display", "video/h264_parameters.h"],
                              ["absl", "grpc", "nlohmann", "protobuf"]),
     "server/core/usage": (["base"], ["cli11"]),
-    "server/core/video": (["base", "frame/size.h", SHADERS_SHARED], ["absl", "openh264"]),
+    "server/core/video": (["base", "frame/size.h", SHADERS_SHARED], ["absl", "jpeg", "openh264"]),
     "server/core/codecs": (["base", "frame/size.h", "video"], ["absl", "avcodec"]),
     "server/core/mp4": (["base", "frame/size.h", "video"], ["absl"]),
     "server/metrics": (["base"], ["prometheus"]),

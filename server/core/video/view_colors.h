@@ -18,7 +18,7 @@ struct PictureCell {
 
 // Writes the view as uint8_t[view height][x][3] R, G, B, with `stride_bytes` from row to row.
 // Expects a view inside of the picture. Chroma is interpolated between its samples, as libjpeg does
-// it, but not across the edges of the view: neighbours are other views.
+// it, but not across the edges of the view: neighbours are other views. Throws std::bad_alloc.
 void writeViewColors(const VideoPicture& picture, const PictureCell& cell, uint8_t* rgb,
                      size_t stride_bytes);
 // The same as uint8_t[view height][x][4] R, G, B, 255.
