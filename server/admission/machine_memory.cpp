@@ -11,6 +11,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/cgroup_folders.h"
+
 namespace viewloom {
 namespace {
 
@@ -42,38 +44,11 @@ uint64_t installedBytes(const fs::path& root) {
   return kUnlimited;
 }
 
-// The least limit of a cgroup and of those around it. In a container the path may be one of the
-// host, of which only the mount point is there.
-uint64_t leastLimit(const fs::path& mount, const std::string& group, const char* file) {
-  uint64_t least_bytes = limitIn(mount / file);
-  fs::path path = fs::path(group).relative_path();
-  for (; !path.empty(); path = path.parent_path()) {
-    least_bytes = std::min(least_bytes, limitIn(mount / path / file));
-  }
-  return least_bytes;
-}
-
-bool listsMemory(std::string_view controllers) {
-  return ("," + std::string(controllers) + ",").find(",memory,") != std::string::npos;
-}
-
-// Lines of /proc/self/cgroup: "0::/user.slice" of version 2, "7:memory:/docker/ab12" of version 1.
 uint64_t cgroupBytes(const fs::path& root) {
-  const fs::path mount = root / "sys/fs/cgroup";
   uint64_t least_bytes = kUnlimited;
-  std::ifstream stream(root / "proc/self/cgroup");
-  for (std::string line; std::getline(stream, line);) {
-    const size_t first = line.find(':');
-    const size_t second = first == std::string::npos ? first : line.find(':', first + 1);
-    if (second == std::string::npos) continue;
-    const std::string controllers = line.substr(first + 1, second - first - 1);
-    const std::string group = line.substr(second + 1);
-    if (controllers.empty()) {
-      least_bytes = std::min(least_bytes, leastLimit(mount, group, "memory.max"));
-    } else if (listsMemory(controllers)) {
-      least_bytes =
-          std::min(least_bytes, leastLimit(mount / "memory", group, "memory.limit_in_bytes"));
-    }
+  for (const CgroupFolder& folder : cgroupFolders(root, "memory")) {
+    const char* const file = folder.version == 2 ? "memory.max" : "memory.limit_in_bytes";
+    least_bytes = std::min(least_bytes, limitIn(folder.path / file));
   }
   return least_bytes;
 }

@@ -65,6 +65,14 @@ TEST_F(MachineMemory, readsNamedGroupsOfVersion1) {
   EXPECT_EQ(machineMemoryBytes(root_), kGiB / 2);
 }
 
+TEST_F(MachineMemory, takesNoLimitOfAGroupThatCannotBeSeen) {
+  write("proc/meminfo", kMemory);
+  write("proc/self/cgroup", "0::/../beside\n");
+  write("sys/fs/cgroup/memory.max", "max\n");
+  write("sys/fs/beside/memory.max", "1073741824\n");
+  EXPECT_EQ(machineMemoryBytes(root_), 4 * kGiB);
+}
+
 TEST_F(MachineMemory, ignoresWhatIsNoNumber) {
   write("proc/meminfo", "MemTotal: much\n");
   write("proc/self/cgroup", "nonsense\n0:\n0::/../../x\n");
