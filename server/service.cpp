@@ -12,6 +12,7 @@
 #include "admission/request_boundary.h"
 #include "base/byte_pool.h"
 #include "base/log.h"
+#include "base/processor_count.h"
 #include "base/thread_time.h"
 #include "decode/frame_intake.h"
 #include "engine_room.h"
@@ -89,7 +90,7 @@ struct Service::Parts {
   const std::unique_ptr<TlsWatch> tls;  // null = no encryption
   MemoryBudget memory;
   StreamDirectory directory;
-  CodingRoom coding_room{std::thread::hardware_concurrency(), processTimeNs};
+  CodingRoom coding_room{processors().busyMax(), processTimeNs};
   Broadcaster broadcaster;
   BytePool planes;
   const VideoEncoderChoicePtr video_encoders;

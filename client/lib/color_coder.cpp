@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <optional>
-#include <thread>
 #include <utility>
 
 #include "base/check.h"
+#include "base/processor_count.h"
 #include "lib/inverse_depth.h"
 #include "lib/undefined_colors.h"
 #include "video/openh264_encoder.h"
@@ -122,7 +122,7 @@ struct ColorCoder::Converter {
 
 ColorCoder::ColorCoder(const ColorVideo& options)
     : options_(options),
-      thread_count_(std::clamp(std::thread::hardware_concurrency(), 1U, kCoderThreadsMax)),
+      thread_count_(std::min(processorCount(), kCoderThreadsMax)),
       converter_(std::make_unique<Converter>()) {}
 
 ColorCoder::~ColorCoder() = default;

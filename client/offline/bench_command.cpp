@@ -8,10 +8,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <thread>
 #include <vector>
 
 #include "base/log.h"
+#include "base/processor_count.h"
 #include "messages/display_from_proto.h"
 #include "offline/atlas_pictures.h"
 #include "offline/loopback_bench.h"
@@ -134,7 +134,7 @@ int bench(const BenchArguments& arguments, const Config& config) {
     stages = measureStages(device, frame, *spec, EncodingSpec{}, arguments.repetition_count);
     json["device"] = device.info().name;
     json["driver"] = device.info().driver;
-    json["cores"] = std::thread::hardware_concurrency();
+    json["cores"] = processorCount();
     json["scene"] = {
         {"width_px", kSource_px.width},   {"height_px", kSource_px.height},
         {"layers", kLayerCount},          {"display", kPreset},

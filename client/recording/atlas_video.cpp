@@ -2,11 +2,11 @@
 #include "recording/atlas_video.h"
 
 #include <algorithm>
-#include <thread>
 #include <utility>
 
 #include "absl/strings/str_format.h"
 #include "base/output_file.h"
+#include "base/processor_count.h"
 #include "base/str_cat.h"
 #include "display/display_spec.h"
 #include "display/quilt_json.h"
@@ -101,12 +101,11 @@ absl::Status AtlasVideo::begin(const v1::AtlasLayout& layout) {
   const absl::StatusOr<VideoTiles> fitted = fitVideoTiles(tiles_, encoders_->limit());
   VIEWLOOM_RETURN_IF_ERROR(fitted.status());
   video_tiles_ = *fitted;
-  auto coder = MovieCoder::make(
-      {.atlas = tiles_,
-       .video = video_tiles_,
-       .qp = qpOf(layout.encoding()),
-       .thread_count = std::clamp(std::thread::hardware_concurrency(), 1U, kThreadsMax),
-       .encoders = encoders_});
+  auto coder = MovieCoder::make({.atlas = tiles_,
+                                 .video = video_tiles_,
+                                 .qp = qpOf(layout.encoding()),
+                                 .thread_count = std::min(processorCount(), kThreadsMax),
+                                 .encoders = encoders_});
   VIEWLOOM_RETURN_IF_ERROR(coder.status());
   written_path_ = withSuffix(path_, layout.suffix());
   auto file = MovieFile::create(

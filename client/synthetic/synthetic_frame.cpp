@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/check.h"
+#include "base/processor_count.h"
 #include "base/srgb.h"
 #include "synthetic/cast_row.h"
 #include "synthetic/portrait_scene.h"
@@ -157,8 +158,7 @@ void renderSyntheticFrame(const SyntheticOptions& options, std::vector<Synthetic
     layer.motion.assign(options.has_motion ? 3 * options.size_px.area() : 0, 0);
   }
   FrameRenderer renderer(options, layers);
-  const uint32_t core_count = std::max(1U, std::thread::hardware_concurrency());
-  const uint32_t thread_count = options.thread_count == 0 ? core_count : options.thread_count;
+  const uint32_t thread_count = options.thread_count == 0 ? processorCount() : options.thread_count;
   std::vector<std::jthread> helpers;
   for (uint32_t i = 1; i < thread_count; ++i) helpers.emplace_back([&] { renderer.renderRows(); });
   renderer.renderRows();

@@ -17,7 +17,7 @@ struct SyntheticOptions {
   uint32_t layer_count = 1;      // 1..4
   double time_s = 0;             // the same time gives the same bytes
   std::optional<Camera> camera;  // default: syntheticCamera(size_px)
-  uint32_t thread_count = 0;     // 0 = one per core
+  uint32_t thread_count = 0;     // 0 = processorCount()
   bool has_mirrors = false;      // some surfaces mirror; their own colour is then darker
   bool has_motion = false;       // says how surfaces move
   synthetic::Setting setting = synthetic::Setting::kBalls;

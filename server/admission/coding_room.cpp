@@ -16,7 +16,7 @@ constexpr int64_t kFull_ns = 3'000'000'000;
 }  // namespace
 
 void CodingRoom::look(int64_t now_ns) {
-  if (core_count_ == 0) return;
+  if (core_count_ <= 0) return;
   const int64_t used_ns = used_ns_();
   std::lock_guard lock(mutex_);
   looks_.push_back({now_ns, used_ns});

@@ -18,8 +18,9 @@ namespace viewloom {
 // monotonic. Thread-safety: all methods may be called from any thread.
 class CodingRoom {
  public:
-  // `used_ns`: processor time that this server has taken so far. Without cores there is no room.
-  CodingRoom(uint32_t core_count, std::function<int64_t()> used_ns)
+  // `core_count`: cores that this server may keep busy (Processors::busyMax). Without cores there
+  // is no room. `used_ns`: processor time that it has taken so far.
+  CodingRoom(double core_count, std::function<int64_t()> used_ns)
       : core_count_(core_count), used_ns_(std::move(used_ns)) {}
 
   // To be called a few times a second.
@@ -41,7 +42,7 @@ class CodingRoom {
   // With the lock. Share of the cores that is taken, 0..1; none = not known yet.
   std::optional<double> load() const;
 
-  const uint32_t core_count_;
+  const double core_count_;
   const std::function<int64_t()> used_ns_;
   mutable std::mutex mutex_;  // guards what follows
   std::deque<Look> looks_;    // of the last two seconds

@@ -13,7 +13,6 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -103,6 +102,13 @@ Finding checkCertificate(const TlsConfig& tls) {
           remedy == problem.size() ? "correct the file" : problem.substr(remedy + 2)};
 }
 
+std::string coresText(const Processors& processors) {
+  const uint32_t allowed_count = processors.allowed_count;
+  const std::string allowed = strCat(allowed_count, allowed_count == 1 ? " core" : " cores");
+  if (!processors.isLimited()) return allowed;
+  return strCat(processors.busyMax(), " of ", allowed, ", limited by a cgroup");
+}
+
 }  // namespace
 
 bool hasProblem(const std::vector<Finding>& findings) {
@@ -180,10 +186,9 @@ std::vector<Finding> checkProtection(const Config& config) {
   return findings;
 }
 
-std::vector<Finding> checkHost() {
+std::vector<Finding> checkHost(const Processors& processors) {
   std::vector<Finding> findings;
-  const unsigned cores = std::thread::hardware_concurrency();
-  findings.push_back({Verdict::kFine, "host", strCat(cores, cores == 1 ? " core" : " cores"), ""});
+  findings.push_back({Verdict::kFine, "host", coresText(processors), ""});
   rlimit files{};
   getrlimit(RLIMIT_NOFILE, &files);
   if (files.rlim_cur < kComfortableFileCount) {

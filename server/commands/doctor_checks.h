@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/processor_count.h"
 #include "config/config.h"
 
 namespace viewloom {
@@ -37,6 +38,6 @@ std::vector<Finding> checkContainment(const Config& config);
 // Certificate and key, and whether the server may listen where it would.
 std::vector<Finding> checkProtection(const Config& config);
 // Cores, and how many connections the system lets a process have.
-std::vector<Finding> checkHost();
+std::vector<Finding> checkHost(const Processors& processors);
 
 }  // namespace viewloom

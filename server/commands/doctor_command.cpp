@@ -3,6 +3,7 @@
 #include <iostream>
 
 #include "base/printable.h"
+#include "base/processor_count.h"
 #include "commands/command.h"
 #include "commands/doctor_checks.h"
 #include "usage/command_line.h"
@@ -35,7 +36,7 @@ int doctor(const Config& config) {
     }
     has_problem |= hasProblem(findings);
   };
-  tell(checkHost());
+  tell(checkHost(processors()));
   tell(checkContainment(config));
   tell(checkEngines(config));
   tell(checkVideo(config));

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <string_view>
-#include <thread>
 
 #include "base/nearest_name.h"
+#include "base/processor_count.h"
 #include "base/str_cat.h"
 #include "config/settings.h"
 #include "config/toml_file.h"
@@ -159,7 +159,7 @@ std::map<std::string, std::string> processEnvironment() {
 }
 
 uint32_t threadCount(uint32_t setting) {
-  return setting != 0 ? setting : std::clamp(std::thread::hardware_concurrency(), 1U, 8U);
+  return setting != 0 ? setting : std::min(processorCount(), 8U);
 }
 
 }  // namespace viewloom

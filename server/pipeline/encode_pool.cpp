@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/idle_memory.h"
+#include "base/processor_count.h"
 #include "base/thread_name.h"
 #include "base/thread_time.h"
 #include "pipeline/within_memory.h"
@@ -89,7 +90,7 @@ EncodePool::EncodePool(const PipelineLinks& links, AtlasPublisher& publisher, Fa
       planes_(kKeptPictureCount),
       video_encoders_(options.video_thread_count, options.video_encoders),
       tasks_(shares),
-      has_all_cores_(options.thread_count >= std::thread::hardware_concurrency()),
+      has_all_cores_(options.thread_count >= processorCount()),
       on_cores_free_(options.on_cores_free) {
   links_.memory.addIdle(bytes_.idleMemory());
   links_.memory.addIdle(planes_.idleMemory());

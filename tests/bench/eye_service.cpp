@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "base/processor_count.h"
 #include "bench/failed_pipeline.h"
 #include "engine/make_engines.h"
 #include "metrics/metrics.h"
@@ -137,7 +138,7 @@ class EyeBench {
                    .broadcaster = broadcaster_,
                    .directory = directory_,
                    .on_failure = endOfFailedPipeline},
-                  {.encode_thread_count = std::max(1u, std::thread::hardware_concurrency())}) {
+                  {.encode_thread_count = processorCount()}) {
     broadcaster_.onDemandChange(
         [this](const std::string& stream) { pipeline_.serveDisplays(stream); });
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/tick_bench.h"
 
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <iostream>
@@ -17,6 +16,7 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "base/processor_count.h"
 #include "bench/failed_pipeline.h"
 #include "bench/report.h"
 #include "bench/retime_bench.h"
@@ -146,7 +146,7 @@ Figures serve(const Device& device, double moving_share, const Arguments& argume
                      .broadcaster = broadcaster,
                      .directory = directory,
                      .on_failure = endOfFailedPipeline},
-                    {.encode_thread_count = std::max(1U, std::thread::hardware_concurrency())});
+                    {.encode_thread_count = processorCount()});
   broadcaster.onDemandChange([&](const std::string& stream) { pipeline.serveDisplays(stream); });
   std::vector<Show> shows;
   shows.reserve(2);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/worker_pool.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "base/processor_count.h"
 #include "base/thread_name.h"
 #include "base/thread_time.h"
 
@@ -15,8 +15,7 @@ thread_local int64_t help_of_thread_ns = 0;
 }  // namespace
 
 WorkerPool::WorkerPool(uint32_t worker_count) {
-  const uint32_t wanted =
-      worker_count > 0 ? worker_count : std::max(1U, std::thread::hardware_concurrency());
+  const uint32_t wanted = worker_count > 0 ? worker_count : processorCount();
   for (uint32_t worker = 1; worker < wanted; ++worker) {
     threads_.emplace_back([this, worker](const std::stop_token& stop) {
       nameThread("worker");

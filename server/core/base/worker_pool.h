@@ -19,7 +19,7 @@ namespace viewloom {
 // callers take turns: each gets the workers for about kTurn, in the order in which they wait.
 class WorkerPool {
  public:
-  // Number of workers, including the caller of forEach(). 0 = one for each core.
+  // Number of workers, including the caller of forEach(). 0 = processorCount().
   explicit WorkerPool(uint32_t worker_count = 0);
   ~WorkerPool();
   WorkerPool(const WorkerPool&) = delete;

@@ -8,11 +8,9 @@
 #include <thread>
 #include <vector>
 
-namespace viewloom::bench {
+#include "base/processor_count.h"
 
-inline uint32_t threadCount() {
-  return std::max(1U, std::thread::hardware_concurrency());
-}
+namespace viewloom::bench {
 
 // Calls work(thread, first, last) until 0..count is done, `chunk` at a time, whoever is free next:
 // rows are not equally dear.
@@ -27,7 +25,7 @@ void forChunks(uint32_t count, uint32_t chunk, const Work& work) {
     }
   };
   std::vector<std::jthread> others;
-  for (uint32_t thread = 1; thread < threadCount(); ++thread) others.emplace_back(serve, thread);
+  for (uint32_t thread = 1; thread < processorCount(); ++thread) others.emplace_back(serve, thread);
   serve(0);
 }
 

@@ -68,7 +68,7 @@ void PlanarRuns::prepare(const BenchLoad& load) {
   runs_.assign(load.source.size_px.height, {});
   scratch_.clear();
   const size_t sample_count = size_t{width_px} * load.source.inv_z.size();
-  for (uint32_t thread = 0; thread < threadCount(); ++thread) {
+  for (uint32_t thread = 0; thread < processorCount(); ++thread) {
     Scratch& scratch = *scratch_.emplace_back(std::make_unique<Scratch>());
     scratch.rgba.resize(sample_count);
     for (auto* plane : {&scratch.begin, &scratch.end}) plane->resize(sample_count);

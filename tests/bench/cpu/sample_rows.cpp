@@ -63,7 +63,7 @@ void SampleRows::prepare(const BenchLoad& load) {
   RowContestant::prepare(load);
   scratch_.clear();
   const size_t layer_count = load.source.inv_z.size();
-  for (uint32_t thread = 0; thread < threadCount(); ++thread) {
+  for (uint32_t thread = 0; thread < processorCount(); ++thread) {
     scratch_.push_back(std::make_unique<Scratch>());
     // A lone sample has both its ends beside it.
     scratch_.back()->resize(layer_count * (3 * size_t{load.source.size_px.width} + kWord),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Room for encodings of a server on two cores, with a clock that is turned by hand.
+// Room for encodings of a server on two cores or fewer, with a clock that is turned by hand.
 #include "admission/coding_room.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +11,8 @@ constexpr int64_t kMs = 1'000'000;
 
 class CodingRoomTest : public testing::Test {
  protected:
+  explicit CodingRoomTest(double core_count = 2) : room_(core_count, [this] { return used_ns_; }) {}
+
   // The server keeps so many cores busy.
   void run(int64_t duration_ms, double busy_core_count) {
     for (const int64_t end_ns = now_ns_ + duration_ms * kMs; now_ns_ < end_ns;) {
@@ -22,7 +24,7 @@ class CodingRoomTest : public testing::Test {
 
   int64_t now_ns_ = 0;
   int64_t used_ns_ = 0;
-  CodingRoom room_{2, [this] { return used_ns_; }};
+  CodingRoom room_;
 };
 
 TEST_F(CodingRoomTest, grantsTimeThatNobodyTakes) {
@@ -59,6 +61,22 @@ TEST_F(CodingRoomTest, isOverOnceAllTimeIsTakenForAWhile) {
   EXPECT_FALSE(room_.take(0, now_ns_));
   run(1000, 1);
   EXPECT_FALSE(room_.isOver());
+}
+
+class CodingRoomOfAQuota : public CodingRoomTest {
+ protected:
+  CodingRoomOfAQuota() : CodingRoomTest(1.5) {}
+};
+
+TEST_F(CodingRoomOfAQuota, grantsPartsOfACore) {
+  run(2000, 0.9);
+  EXPECT_FALSE(room_.take(0.4, now_ns_)) << "1.3 of 1.5 cores, though two would have room";
+  EXPECT_TRUE(room_.take(0.2, now_ns_));
+}
+
+TEST_F(CodingRoomOfAQuota, isOverOnceTheQuotaIsUsedUp) {
+  run(6000, 1.48);
+  EXPECT_TRUE(room_.isOver());
 }
 
 TEST(NoCodingRoom, grantsNothing) {

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -12,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/processor_count.h"
 #include "base/thread_time.h"
 
 namespace viewloom::worker_pool_test {
@@ -140,8 +140,8 @@ TEST(WorkerPool, oneWorkerIsTheCaller) {
   });
 }
 
-TEST(WorkerPool, hasAWorkerACoreIfNotTold) {
-  EXPECT_EQ(WorkerPool().workerCount(), std::max(1U, std::thread::hardware_concurrency()));
+TEST(WorkerPool, hasAWorkerAProcessorIfNotTold) {
+  EXPECT_EQ(WorkerPool().workerCount(), processorCount());
 }
 
 TEST(WorkerPool, servesTheNextTaskAfterAPieceThatThrew) {

@@ -48,6 +48,12 @@ TEST_F(FileGrants, letLibrariesReadTheSystemButNotItsSecrets) {
   }
 }
 
+TEST_F(FileGrants, letTheServerReadTheLimitsOfItsCgroup) {
+  const auto readable = pathsOf(librariesGrants(environmentOf({})), FileAccess::kRead);
+  EXPECT_THAT(readable, Contains("/proc/self"));
+  EXPECT_THAT(readable, Contains("/sys"));
+}
+
 TEST_F(FileGrants, letNobodyWriteButToCachesAndDevices) {
   EXPECT_THAT(pathsOf(librariesGrants(environmentOf({{"HOME", "/h"}})), FileAccess::kKeep),
               testing::IsEmpty());
