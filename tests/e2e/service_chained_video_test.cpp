@@ -5,14 +5,13 @@
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <semaphore>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "base/str_cat.h"
 #include "e2e/picture_psnr.h"
-#include "e2e/service_fixture.h"
+#include "e2e/published_stream_fixture.h"
 #include "e2e/wire_displays.h"
 #include "lib/color_decoder.h"
 
@@ -65,29 +64,7 @@ v1::OpenDisplay chainedQuilt() {
   return open;
 }
 
-class ServiceChainedVideoTest : public ServiceFixture {
- protected:
-  void SetUp() override {
-    ServiceFixture::SetUp();
-    if (IsSkipped()) return;
-    PublisherCallbacks callbacks;
-    callbacks.on_accepted = [this](const v1::PublishAccepted&) { accepted_.release(); };
-    publisher_.emplace(makeChannel(service_->grpcAddress()),
-                       PublisherOptions{.stream = "scene", .session_id = "", .backoff = {}},
-                       std::move(callbacks));
-    // Before that, nobody can open a display of the stream.
-    ASSERT_TRUE(accepted_.try_acquire_for(kGiveUpAfter));
-  }
-  void TearDown() override {
-    publisher_.reset();
-    ServiceFixture::TearDown();
-  }
-
-  void publish(double time_s) { publisher_->offer(syntheticWireFrame({160, 90}, 2, time_s)); }
-
-  std::counting_semaphore<> accepted_{0};
-  std::optional<Publisher> publisher_;
-};
+using ServiceChainedVideoTest = PublishedStreamFixture;
 
 TEST_F(ServiceChainedVideoTest, refersToTheAtlasBeforeAndShowsEachFrame) {
   Follower follower(service_->grpcAddress(), chainedQuilt());
