@@ -64,15 +64,21 @@ class Server:
         self.start("watch", STREAM, *display)
 
     def start(self, *arguments):
+        """A process of `viewloom` with these arguments."""
         self.others.append(subprocess.Popen(
             [self.client, "--server", self.grpc_address, *arguments, "--quiet"],
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        return self.others[-1]
+
+    def metrics(self):
+        with urllib.request.urlopen(self.url + "metrics", timeout=PATIENCE_S) as reply:
+            lines = reply.read().decode().splitlines()
+        values = (line.rsplit(" ", 1) for line in lines if not line.startswith("#"))
+        return {name: float(value) for name, value in values}
 
     def counts(self):
-        with urllib.request.urlopen(self.url + "metrics", timeout=PATIENCE_S) as reply:
-            metrics = dict(line.rsplit(" ", 1) for line in reply.read().decode().splitlines()
-                           if not line.startswith("#"))
-        return {name: float(metrics[metric]) for name, metric in COUNTED.items()}
+        metrics = self.metrics()
+        return {name: metrics[metric] for name, metric in COUNTED.items()}
 
     def cpu_s(self):
         with open(f"/proc/{self.process.pid}/stat", encoding="ascii") as stat:
