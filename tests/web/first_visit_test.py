@@ -173,8 +173,9 @@ class FirstVisit(PageTest):
         self.assertEqual(self.browser.evaluate("tries"), 1)
         self.browser.click("#trouble-again")
         self.browser.wait_for("tries === 2")
-        # An engine that gives a display up later is not asked for it again, either.
-        self.open()
+        # An engine that gives a display up later is not asked for it again, either. Of one size: a
+        # page that has just asked for another one would get that.
+        self.open(SMALL + "&mode=quilt&detail=1")
         self.browser.evaluate("tries = 0")
         self.server.command("refuse")
         self.browser.wait_for(f"{STATE} === 'refused'")

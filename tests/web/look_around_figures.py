@@ -5,7 +5,8 @@
 
 pictures a second, their height and motion to picture while the pointer moves sideways, and while it
 turns about the scene; the height of the first picture, and how soon one that stands is sharp; and
-bytes of compact depth. Prints JSON. --gpu: lets the browser use one, and reprojection with it."""
+bytes of compact depth; and pictures a second of the least size that one viewer gets in free motion
+where no browser takes time. Prints JSON. --gpu: lets the browser use one, and reprojection with it."""
 import argparse
 import json
 import math
@@ -129,18 +130,42 @@ class Page:
         return 0 if sharp else round(self.page.wait_for(f"({full})?.ms") - begin)
 
 
-def depth_figures(port):
+def eye_viewer(port, width, height):
     display = {"stereo": {"layout": "STEREO_LAYOUT_SINGLE", "tracked": True,
-                          "eye_size": {"width": 1280, "height": 720}}}
+                          "eye_size": {"width": width, "height": height}}}
     encoding = {"with_depth": True, "planes": "BAND_ENCODING_COMPACT_DEPTH"}
-    viewer = WebSocket(port, "/ws?" + asked(display, encoding, stream="demo"))
+    return WebSocket(port, "/ws?" + asked(display, encoding, stream="demo"))
+
+
+def send_pose(viewer, pose):
+    viewer.send_json({"eye_poses": {"time_ns": str(time.monotonic_ns()), "eyes": [{"pose": pose}]}})
+
+
+def free_alone(port, seconds):
+    """The floor of free motion: a view of 360 px of height, and nobody beside the server."""
+    viewer = eye_viewer(port, 640, 360)
+    viewer.shown(viewer.receive_atlas())
+    begin, traced_ms = time.monotonic(), []
+    while (now := time.monotonic() - begin) < seconds:
+        yaw = 0.3 * math.sin(2 * math.pi * 0.3 * now)
+        send_pose(viewer, {"position": {"x": 2 * math.sin(yaw), "z": 1 - math.cos(yaw)},
+                           "orientation": {"w": math.cos(yaw / 2), "y": math.sin(yaw / 2)}})
+        atlas = viewer.receive_atlas()
+        viewer.shown(atlas)
+        traced_ms.append(atlas.header["times"]["trace_ns"] * 1e-6)
+    viewer.close()
+    return {"pictures_per_s": round(len(traced_ms) / seconds, 1),
+            "trace_ms": round(statistics.median(traced_ms))}
+
+
+def depth_figures(port):
+    viewer = eye_viewer(port, 1280, 720)
     sizes = []
     for index in range(10):
         atlas = viewer.receive_atlas()
         viewer.shown(atlas)
         sizes.append((len(atlas.depth), len(atlas.jpeg)))
-        viewer.send_json({"eye_poses": {"time_ns": str(index), "eyes": [
-            {"pose": {"position": {"x": 0.02 * index}}}]}})
+        send_pose(viewer, {"position": {"x": 0.02 * index}})
     viewer.close()
     depth, jpeg = (statistics.mean(column) for column in zip(*sizes))
     return {"size": "1280x720", "depth_bytes": round(depth), "jpeg_bytes": round(jpeg),
@@ -165,6 +190,7 @@ def measure(arguments):
         figures["free"] = shown.turn(arguments.seconds)
         figures["free_sharp_after_ms"] = shown.sharp_after_ms()
         page.open("about:blank")
+        figures["free_without_a_browser"] = free_alone(live.port, arguments.seconds)
         figures["depth"] = depth_figures(live.port)
     return figures
 
