@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Readers of a broadcaster's display that move to its second rung and back.
-#include <cmath>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,27 +7,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "unit/publish/watcher.h"
+#include "unit/publish/paced_readers.h"
 
 namespace viewloom::test::second_rung_test {
 namespace {
 
 constexpr int64_t kMs = 1'000'000;
-constexpr EncodingSpec kAdapting = {
-    .color = BandEncoding::kH264, .video_qp = 24, .video_qp_max = 40};
-constexpr int64_t kAtlas_ms = 100;  // the display takes 1 MB/s at its finest
 constexpr double kSlow = 300;
-
-uint64_t bytesAt(uint32_t qp) {
-  return uint64_t(100'000 * std::pow(0.68, (double(qp) - 24) / 4));
-}
-
-// A reader with a place at a display, which takes the next atlas once its socket has the last one.
-struct Reader {
-  SubscriptionPtr place;
-  double bytes_per_ms = 0;  // 0 = as fast as they come
-  int64_t free_ns = 0;
-};
 
 class SecondRungTest : public testing::Test {
  protected:
@@ -45,40 +29,30 @@ class SecondRungTest : public testing::Test {
     return broadcaster_.display(place->displayId())->coding;
   }
 
-  // An atlas of every display, as the pipeline makes them, for all readers that are free.
-  void makeAtlases(const std::vector<Reader*>& readers) {
-    std::map<uint64_t, uint64_t> bytes;
-    for (const ActiveDisplayPtr& display : broadcaster_.displays("s")) {
-      const uint32_t qp = display->coding->beginAtlas(now_ns_);
-      bytes[display->id] = bytesAt(qp);
-      display->coding->noteCoded(qp, bytesAt(qp));
-      display->coding->noteCodingTime(coding_ns_);
-    }
-    for (Reader* const reader : readers) {
-      if (reader->free_ns > now_ns_) continue;
-      const uint64_t atlas_bytes = bytes[reader->place->displayId()];
-      const bool is_fast = reader->bytes_per_ms == 0;
-      const double busy_ms = is_fast ? 0 : double(atlas_bytes) / reader->bytes_per_ms;
-      reader->free_ns = now_ns_ + int64_t(busy_ms * kMs);
-      reader->place->beginWrite(atlas_bytes, now_ns_);
-      reader->place->endAtlas(reader->free_ns);
-    }
-  }
-
   // The first move that a reader wants within so long, while ten atlases come in a second.
-  std::optional<RungMove> wantedWithin(int64_t duration_ms, Reader& wanting,
-                                       const std::vector<Reader*>& readers) {
+  std::optional<RungMove> wantedWithin(int64_t duration_ms, PacedReader& wanting,
+                                       const std::vector<PacedReader*>& readers) {
     for (const int64_t end_ns = now_ns_ + duration_ms * kMs; now_ns_ < end_ns;) {
-      makeAtlases(readers);
-      now_ns_ += kAtlas_ms * kMs;
-      used_ns_ += int64_t(busy_core_count_ * kAtlas_ms * kMs);
+      auto bytes = codeAtlases(broadcaster_, "s", now_ns_, coding_ns_);
+      for (PacedReader* const reader : readers) {
+        reader->offer(bytes[reader->place->displayId()], now_ns_);
+      }
+      now_ns_ += kAtlasesApart_ns;
+      used_ns_ += int64_t(busy_core_count_ * kAtlasesApart_ns);
       broadcaster_.remakeStanding(now_ns_);
       if (const auto move = wanting.place->wantedMove(now_ns_)) return move;
     }
     return std::nullopt;
   }
 
-  absl::Status move(Reader& reader, const RungMove& move) {
+  // The move that the slow reader wants of video that is encoded so.
+  std::optional<RungMove> wantedOf(const EncodingSpec& encoding) {
+    fast_ = {.place = watch(encoding)};
+    slow_ = {.place = watch(encoding), .bytes_per_ms = kSlow};
+    return wantedWithin(5000, slow_, {&fast_, &slow_});
+  }
+
+  absl::Status move(PacedReader& reader, const RungMove& move) {
     auto place = broadcaster_.moveToRung(move, std::make_shared<Watcher>(), now_ns_);
     if (place.ok()) reader.place = *std::move(place);
     return place.status();
@@ -92,8 +66,8 @@ class SecondRungTest : public testing::Test {
   std::vector<std::string> demands_;
   Broadcaster broadcaster_{
       {.display_count_max = 2, .subscriber_count_max = 4}, unboundedMemory(), room_};
-  Reader fast_{.place = watch()};
-  Reader slow_{.place = watch(), .bytes_per_ms = kSlow};
+  PacedReader fast_{.place = watch()};
+  PacedReader slow_{.place = watch(), .bytes_per_ms = kSlow};
 };
 
 TEST_F(SecondRungTest, isMadeWhileAReaderIsFarBelowTheOthers) {
@@ -117,9 +91,9 @@ TEST_F(SecondRungTest, isMadeWhileAReaderIsFarBelowTheOthers) {
 }
 
 TEST_F(SecondRungTest, isSharedByAllThatAreSlow) {
-  Reader other{.place = watch(), .bytes_per_ms = kSlow};
-  Reader third{.place = watch()};
-  const std::vector<Reader*> all = {&fast_, &slow_, &other, &third};
+  PacedReader other{.place = watch(), .bytes_per_ms = kSlow};
+  PacedReader third{.place = watch()};
+  const std::vector<PacedReader*> all = {&fast_, &slow_, &other, &third};
   const auto wanted = wantedWithin(5000, slow_, all);
   ASSERT_TRUE(wanted.has_value());
   ASSERT_TRUE(move(slow_, *wanted).ok()) << "it needs no fifth place";
@@ -216,14 +190,10 @@ TEST_F(SecondRungTest, getsAnAtlasThatNeedsNoOtherAlsoForAReaderThatMayNotTakeIt
   EncodingSpec chained = kAdapting;
   chained.prediction = Prediction::kAcrossAtlases;
   chained.bits_per_second_max = 80'000'000;
-  Reader fast{.place = watch(chained)};
-  Reader slow{.place = watch(chained), .bytes_per_ms = kSlow};
-  fast_.place = nullptr;
-  slow_.place = nullptr;
-  const auto wanted = wantedWithin(5000, slow, {&fast, &slow});
+  const auto wanted = wantedOf(chained);
   ASSERT_TRUE(wanted.has_value());
-  ASSERT_TRUE(move(slow, *wanted).ok());
-  const uint64_t first_id = fast.place->displayId();
+  ASSERT_TRUE(move(slow_, *wanted).ok());
+  const uint64_t first_id = fast_.place->displayId();
   const auto chain = broadcaster_.display(first_id)->chain;
   for (const uint64_t sequence : {uint64_t{1}, uint64_t{2}}) {
     auto atlas = std::make_shared<EncodedAtlas>(*atlasOf(first_id, sequence));
@@ -231,26 +201,22 @@ TEST_F(SecondRungTest, getsAnAtlasThatNeedsNoOtherAlsoForAReaderThatMayNotTakeIt
     chain->noteWhole(sequence);
     broadcaster_.publish(atlas);
   }
-  slow.place->beginWrite(20'000'000, now_ns_);
-  slow.place->endAtlas(now_ns_);
-  ASSERT_FALSE(slow.place->mayBegin(now_ns_));
-  const RungMove back = {slow.place->displayId(), slow.place->subscriberId(), VideoRung::kFirst};
-  ASSERT_TRUE(move(slow, back).ok());
+  slow_.place->beginWrite(20'000'000, now_ns_);
+  slow_.place->endAtlas(now_ns_);
+  ASSERT_FALSE(slow_.place->mayBegin(now_ns_));
+  const RungMove back = {slow_.place->displayId(), slow_.place->subscriberId(), VideoRung::kFirst};
+  ASSERT_TRUE(move(slow_, back).ok());
   EXPECT_TRUE(chain->wantsAgain(now_ns_ + 300 * kMs)) << "frames may stand";
 }
 
 TEST_F(SecondRungTest, hasAChainOfItsOwn) {
   EncodingSpec chained = kAdapting;
   chained.prediction = Prediction::kAcrossAtlases;
-  Reader fast{.place = watch(chained)};
-  Reader slow{.place = watch(chained), .bytes_per_ms = kSlow};
-  fast_.place = nullptr;
-  slow_.place = nullptr;
-  const auto wanted = wantedWithin(5000, slow, {&fast, &slow});
+  const auto wanted = wantedOf(chained);
   ASSERT_TRUE(wanted.has_value());
-  ASSERT_TRUE(move(slow, *wanted).ok());
-  const auto first = broadcaster_.display(fast.place->displayId())->chain;
-  const auto second = broadcaster_.display(slow.place->displayId())->chain;
+  ASSERT_TRUE(move(slow_, *wanted).ok());
+  const auto first = broadcaster_.display(fast_.place->displayId())->chain;
+  const auto second = broadcaster_.display(slow_.place->displayId())->chain;
   ASSERT_NE(second, nullptr);
   EXPECT_NE(second, first);
   EXPECT_EQ(second->begin(1, now_ns_), 0u) << "the first atlas there needs no other";
@@ -259,17 +225,13 @@ TEST_F(SecondRungTest, hasAChainOfItsOwn) {
 TEST_F(SecondRungTest, keepsAReaderToItsBits) {
   EncodingSpec limited = kAdapting;
   limited.bits_per_second_max = 80'000'000;
-  Reader fast{.place = watch(limited)};
-  Reader slow{.place = watch(limited), .bytes_per_ms = kSlow};
-  fast_.place = nullptr;
-  slow_.place = nullptr;
-  const auto wanted = wantedWithin(5000, slow, {&fast, &slow});
+  const auto wanted = wantedOf(limited);
   ASSERT_TRUE(wanted.has_value());
-  slow.place->beginWrite(100'000'000, now_ns_);
-  slow.place->endAtlas(now_ns_);
-  ASSERT_TRUE(move(slow, *wanted).ok());
-  EXPECT_FALSE(slow.place->mayBegin(now_ns_ + 5000 * kMs)) << "it got the bits of ten seconds";
-  EXPECT_TRUE(slow.place->mayBegin(now_ns_ + 10'000 * kMs));
+  slow_.place->beginWrite(100'000'000, now_ns_);
+  slow_.place->endAtlas(now_ns_);
+  ASSERT_TRUE(move(slow_, *wanted).ok());
+  EXPECT_FALSE(slow_.place->mayBegin(now_ns_ + 5000 * kMs)) << "it got the bits of ten seconds";
+  EXPECT_TRUE(slow_.place->mayBegin(now_ns_ + 10'000 * kMs));
 }
 
 TEST_F(SecondRungTest, isNothingForVideoOfOneQuality) {
@@ -278,9 +240,9 @@ TEST_F(SecondRungTest, isNothingForVideoOfOneQuality) {
   limited.bits_per_second_max = 80'000'000;
   fast_.place = nullptr;
   slow_.place = nullptr;
-  Reader alone{.place = watch(fixed), .bytes_per_ms = kSlow};
-  Reader fast{.place = watch(limited)};
-  Reader slow{.place = watch(limited), .bytes_per_ms = kSlow};
+  PacedReader alone{.place = watch(fixed), .bytes_per_ms = kSlow};
+  PacedReader fast{.place = watch(limited)};
+  PacedReader slow{.place = watch(limited), .bytes_per_ms = kSlow};
   for (; now_ns_ < 20'000 * kMs; now_ns_ += 100 * kMs) {
     EXPECT_FALSE(alone.place->wantedMove(now_ns_));
   }
