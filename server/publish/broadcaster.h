@@ -41,10 +41,15 @@ struct ActiveDisplay {
 
 using ActiveDisplayPtr = std::shared_ptr<const ActiveDisplay>;
 
+// A subscriber's place at a display; 0 = none.
+struct WatcherPlace {
+  uint64_t display_id = 0;
+  uint64_t subscriber_id = 0;
+};
+
 // A subscriber is to take its place at the other rung of its display.
 struct RungMove {
-  uint64_t display_id = 0;  // that it watches so far
-  uint64_t subscriber_id = 0;
+  WatcherPlace from;
   VideoRung to = VideoRung::kSecond;
 };
 
@@ -70,12 +75,12 @@ class Broadcaster {
   // of the one that is being made. Where the newest needs another, one is made that does not.
   // A tracked display is this subscriber's alone, seen by `eyes`, which only such a display has.
   // `replaced`: a place that is left as the new one is taken, so that no limit counts both. It
-  // stays where the new one is refused.
+  // stays where the new one is refused. It may have been left meanwhile.
   // RESOURCE_EXHAUSTED over a limit, or where the budget has no room; UNAVAILABLE while draining.
   absl::StatusOr<std::unique_ptr<Subscription>> subscribe(
       const std::string& stream, const DisplaySpec& spec, const EncodingSpec& encoding,
       const std::shared_ptr<Subscriber>& subscriber, EyeTrackPtr eyes = nullptr,
-      const Subscription* replaced = nullptr);
+      const WatcherPlace& replaced = {});
 
   // Takes the place that Subscription::wantedMove() asks for. It is another display of the same
   // picture, whose sequence is its own. `subscriber` is told as a joiner is, but waits for an atlas
@@ -137,23 +142,23 @@ class Broadcaster::Subscription {
   Subscription(std::shared_ptr<State> state, const ActiveDisplay& display, uint64_t subscriber_id,
                const std::optional<ReaderLine>& line = std::nullopt);
   ~Subscription();
-  uint64_t displayId() const { return display_id_; }
-  uint64_t subscriberId() const { return subscriber_id_; }
+  uint64_t displayId() const { return place_.display_id; }
+  const WatcherPlace& place() const { return place_; }
   VideoRung rung() const { return rung_; }
 
   // Notes of what the subscriber's connection takes; see DisplayCoding. Nothing happens where the
   // quality of the display does not adapt.
   void beginWrite(uint64_t bytes, int64_t now_ns) {
-    if (coding_) coding_->beginWrite(subscriber_id_, bytes, now_ns);
+    if (coding_) coding_->beginWrite(place_.subscriber_id, bytes, now_ns);
   }
   void endWrite(int64_t now_ns) {
-    if (coding_) coding_->endWrite(subscriber_id_, now_ns);
+    if (coding_) coding_->endWrite(place_.subscriber_id, now_ns);
   }
   void endAtlas(int64_t now_ns) {
-    if (coding_) coding_->endAtlas(subscriber_id_, now_ns);
+    if (coding_) coding_->endAtlas(place_.subscriber_id, now_ns);
   }
   bool mayBegin(int64_t now_ns) const {
-    return !coding_ || coding_->mayBegin(subscriber_id_, now_ns);
+    return !coding_ || coding_->mayBegin(place_.subscriber_id, now_ns);
   }
   // To be called a few times a second, if the subscriber can move: whether its line asks for the
   // other rung of the display. A move that is not made is asked for again after a while.
@@ -169,8 +174,7 @@ class Broadcaster::Subscription {
   LineFit fitOfFirstRung(int64_t now_ns) const;
 
   std::shared_ptr<State> state_;
-  uint64_t display_id_;
-  uint64_t subscriber_id_;
+  WatcherPlace place_;
   VideoRung rung_;
   std::shared_ptr<DisplayCoding> coding_;
   std::shared_ptr<AtlasChain> chain_;

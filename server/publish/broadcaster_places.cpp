@@ -63,7 +63,7 @@ absl::StatusOr<std::optional<Broadcaster::State::Joined>> Broadcaster::State::jo
       is_open ? displays.at(key) : displays.open(display, key, std::move(seat.display));
   displays.add(joined, member);
   std::string left_stream;
-  displays.remove(left.display_id, left.member_id, left_stream);
+  displays.remove(left, left_stream);
   return Joined{std::move(member), joined.active, joined.newest, joined.growing,
                 std::move(left_stream)};
 }
@@ -112,7 +112,7 @@ absl::StatusOr<bool> Broadcaster::State::payForRung(const ActiveDisplay& before,
 
 absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscribe(
     const std::string& stream, const DisplaySpec& spec, const EncodingSpec& encoding,
-    const std::shared_ptr<Subscriber>& subscriber, EyeTrackPtr eyes, const Subscription* replaced) {
+    const std::shared_ptr<Subscriber>& subscriber, EyeTrackPtr eyes, const WatcherPlace& replaced) {
   VIEWLOOM_CHECK(isTracked(spec) == (eyes != nullptr));
   std::string picture_key = strCat(stream, " ", displayKey(spec), arrangementKey(encoding));
   if (eyes != nullptr) picture_key += strCat("of ", state_->takeId(), " ");
@@ -123,10 +123,8 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
                               .eyes = std::move(eyes),
                               .coding = codingOf(encoding),
                               .chain = chainOf(encoding)};
-  WatcherPlace left;
-  if (replaced != nullptr) left = {replaced->displayId(), replaced->subscriberId()};
   const absl::StatusOr<State::Joined> joined =
-      state_->take(display, keyOf(display), subscriber, left);
+      state_->take(display, keyOf(display), subscriber, replaced);
   VIEWLOOM_RETURN_IF_ERROR(joined.status());
   auto subscription =
       std::make_unique<Subscription>(state_, *joined->display, joined->member->id());
@@ -142,7 +140,7 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
 // on. One that needs no other is no hurry: where frames stand, remakeStanding() sees to it.
 absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::moveToRung(
     const RungMove& move, const std::shared_ptr<Subscriber>& subscriber, int64_t now_ns) {
-  const ActiveDisplayPtr before = display(move.display_id);
+  const ActiveDisplayPtr before = display(move.from.display_id);
   if (!before || !before->coding) {
     return absl::FailedPreconditionError("the display that the viewer is to leave has ended");
   }
@@ -153,10 +151,9 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::moveToRu
   const std::string key = keyOf(other);
   const absl::StatusOr<bool> has_paid = state_->payForRung(*before, key, now_ns);
   VIEWLOOM_RETURN_IF_ERROR(has_paid.status());
-  ReaderLine line = before->coding->lineOf(move.subscriber_id);
+  ReaderLine line = before->coding->lineOf(move.from.subscriber_id);
   line.rung.noteMoved(now_ns);
-  const absl::StatusOr<State::Joined> joined =
-      state_->take(other, key, subscriber, {move.display_id, move.subscriber_id});
+  const absl::StatusOr<State::Joined> joined = state_->take(other, key, subscriber, move.from);
   if (!joined.ok() && *has_paid) state_->coding_room.giveBack();
   VIEWLOOM_RETURN_IF_ERROR(joined.status());
   auto subscription =
@@ -170,41 +167,38 @@ Broadcaster::Subscription::Subscription(std::shared_ptr<State> state, const Acti
                                         uint64_t subscriber_id,
                                         const std::optional<ReaderLine>& line)
     : state_(std::move(state)),
-      display_id_(display.id),
-      subscriber_id_(subscriber_id),
+      place_{display.id, subscriber_id},
       rung_(display.encoding.rung),
       coding_(display.coding),
       chain_(display.chain) {
-  if (coding_) coding_->join(subscriber_id_, line);
+  if (coding_) coding_->join(subscriber_id, line);
 }
 
 LineFit Broadcaster::Subscription::fitOfFirstRung(int64_t now_ns) const {
-  const LineSpeed speed = coding_->speedOf(subscriber_id_, now_ns);
+  const LineSpeed speed = coding_->speedOf(place_.subscriber_id, now_ns);
   if (rung_ == VideoRung::kFirst) return coding_->fitOf(speed, now_ns);
   // Nothing is gained by a second encoding where nobody is on the first rung, or that is no finer.
-  const std::shared_ptr<DisplayCoding> first = state_->otherCoding(display_id_);
+  const std::shared_ptr<DisplayCoding> first = state_->otherCoding(place_.display_id);
   if (!first || first->qp() >= coding_->qp()) return LineFit::kFits;
   return first->fitOf(speed, now_ns);
 }
 
 std::optional<RungMove> Broadcaster::Subscription::wantedMove(int64_t now_ns) {
   if (!coding_) return std::nullopt;
-  const bool wants = coding_->wantsOtherRung(subscriber_id_, fitOfFirstRung(now_ns), now_ns);
+  const bool wants = coding_->wantsOtherRung(place_.subscriber_id, fitOfFirstRung(now_ns), now_ns);
   const bool is_first = rung_ == VideoRung::kFirst;
   const bool has_to_go = !is_first && state_->coding_room.isOver();
   if (!wants && !has_to_go) return std::nullopt;
-  return RungMove{.display_id = display_id_,
-                  .subscriber_id = subscriber_id_,
-                  .to = is_first ? VideoRung::kSecond : VideoRung::kFirst};
+  return RungMove{.from = place_, .to = is_first ? VideoRung::kSecond : VideoRung::kFirst};
 }
 
 Broadcaster::Subscription::~Subscription() {
-  if (coding_) coding_->leave(subscriber_id_);
+  if (coding_) coding_->leave(place_.subscriber_id);
   std::string stream;
   bool was_last = false;
   {
     std::lock_guard lock(state_->mutex);
-    was_last = state_->displays.remove(display_id_, subscriber_id_, stream);
+    was_last = state_->displays.remove(place_, stream);
   }
   if (was_last) state_->announce(stream);
 }

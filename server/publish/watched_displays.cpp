@@ -29,7 +29,7 @@ absl::Status WatchedDisplays::checkRoom(bool opens_display, const WatcherPlace& 
   const WatchedDisplay* const before = find(left.display_id);
   const bool leaves =
       before != nullptr && std::ranges::any_of(before->members, [&](const auto& it) {
-        return it->id() == left.member_id;
+        return it->id() == left.subscriber_id;
       });
   const uint32_t left_members = leaves ? 1 : 0;
   const size_t left_displays = leaves && before->members.size() == 1 ? 1 : 0;
@@ -83,11 +83,11 @@ void WatchedDisplays::add(WatchedDisplay& display, MemberPtr member) {
   noteMembers(display);
 }
 
-bool WatchedDisplays::remove(uint64_t display_id, uint64_t member_id, std::string& stream) {
-  WatchedDisplay* const display = find(display_id);
+bool WatchedDisplays::remove(const WatcherPlace& place, std::string& stream) {
+  WatchedDisplay* const display = find(place.display_id);
   if (display == nullptr) return false;
   std::erase_if(display->members, [&](const MemberPtr& member) {
-    if (member->id() != member_id) return false;
+    if (member->id() != place.subscriber_id) return false;
     member->leave();
     --member_count_;
     return true;
@@ -97,7 +97,7 @@ bool WatchedDisplays::remove(uint64_t display_id, uint64_t member_id, std::strin
     return false;
   }
   stream = display->active->stream;
-  close(display_id);
+  close(place.display_id);
   return true;
 }
 

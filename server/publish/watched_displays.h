@@ -26,12 +26,6 @@ struct WatchedDisplay {
   uint64_t atlas_count = 0;
 };
 
-// A viewer's place at a display; 0 = none.
-struct WatcherPlace {
-  uint64_t display_id = 0;
-  uint64_t member_id = 0;
-};
-
 // Memory of a viewer, and of the display if it opens one.
 struct Seat {
   bool opens = false;
@@ -68,7 +62,7 @@ class WatchedDisplays {
 
   void add(WatchedDisplay& display, MemberPtr member);
   // True when the display went with its last member; then `stream` is its stream.
-  bool remove(uint64_t display_id, uint64_t member_id, std::string& stream);
+  bool remove(const WatcherPlace& place, std::string& stream);
   // Its members, who are to be told.
   std::vector<MemberPtr> close(uint64_t id);
 

@@ -175,7 +175,7 @@ std::optional<grpc::ByteBuffer> WatchCall::takeHeartbeat() {
 
 void WatchCall::tick() {
   if (const absl::Status status = caller_.tick(); !status.ok()) end(status);
-  if (const absl::Status status = leaveChainIfLost(); !status.ok()) end(status);
+  leaveChainIfLost();
   if (const absl::Status status = followLine(); !status.ok()) end(status);
   std::lock_guard lock(mutex_);
   if (ending()) return;

@@ -75,12 +75,29 @@ class WatchCall final : public BidiCall {
   void notePresented(const v1::Presented& presented);
   void noteProbe(const v1::ClockProbe& probe, int64_t received_ns);
   DisplayUse displayUse(const EncodingSpec& encoding) const;
+  // Leaves its place, and takes the one that was asked for.
   absl::Status takeSeat(const std::string& field);
-  absl::Status leaveChainIfLost();
+  // Stays in its chain where it cannot move.
+  void leaveChainIfLost();
   // Moves to the other rung of the display where the line asks for that, and stays where it cannot.
-  // Comes back where the second rung has ended; errors as of takeSeat().
+  // Comes back where its place is lost; errors as of takeSeat().
   absl::Status followLine();
-  void moveToRung(const RungMove& move, std::shared_ptr<Seat> seat);
+  absl::Status moveTo(const AskedPicture& asked);
+  void moveToRung(const RungMove& move);
+
+  // A move that the client has not asked for: the call stays at its place until it is granted the
+  // new one.
+  struct Departure {
+    WatcherPlace from;
+    QuotaPartPtr quota;  // of the place so far
+    std::shared_ptr<Seat> seat;
+  };
+  Departure depart();
+  // False where the call ends. What the new place has told already is told again.
+  bool arrive(std::shared_ptr<Seat> seat, std::unique_ptr<Broadcaster::Subscription> subscription,
+              QuotaPartPtr quota);
+  // With mutex_. Of the next number.
+  std::shared_ptr<Seat> nextSeat(const std::string& field);
 
   void leave(std::unique_ptr<Broadcaster::Subscription> subscription);
   void begin(uint64_t seat_number, GrowingAtlasPtr atlas);
@@ -109,8 +126,10 @@ class WatchCall final : public BidiCall {
   std::unique_ptr<Broadcaster::Subscription> subscription_;
   QuotaPartPtr quota_;  // of its display
   uint64_t seat_number_ = 0;
-  bool is_rung_lost_ = false;  // the second rung has ended; the first may go on
-  bool draining_ = false;      // what waits is still written
+  // The second rung has ended, and the first may go on; or a new place ended before the call had
+  // arrived.
+  bool is_place_lost_ = false;
+  bool draining_ = false;  // what waits is still written
   AtlasOutbox outbox_;
   ClockReplies clock_replies_;
   bool replied_last_ = false;  // the last message written is one of them

@@ -36,8 +36,9 @@ absl::Status Viewer::subscribe(const AskedDisplay& asked) {
   VIEWLOOM_RETURN_IF_ERROR(quota.status());
   auto inbox = makeInbox(*std::move(quota));
   EyeTrackPtr track = eyes_.trackFor(request->display);
-  auto subscription = context_.broadcaster.subscribe(
-      request->stream, request->display, request->encoding, inbox, track, subscription_.get());
+  const WatcherPlace before = subscription_ ? subscription_->place() : WatcherPlace();
+  auto subscription = context_.broadcaster.subscribe(request->stream, request->display,
+                                                     request->encoding, inbox, track, before);
   VIEWLOOM_RETURN_IF_ERROR(subscription.status());
   sit(std::move(inbox), *std::move(subscription));
   eyes_.watch(request->display, subscription_->displayId(), std::move(track));

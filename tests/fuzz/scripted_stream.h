@@ -28,6 +28,11 @@ class ScriptedStream final
   }
 
   bool hasEnded() const { return is_done_; }
+  // How the call wants to end, once it does.
+  std::optional<grpc::Status> finished() {
+    std::lock_guard lock(mutex_);
+    return finished_;
+  }
 
   // The client sends a message. Nothing happens unless the call reads.
   void give(grpc::ByteBuffer message) {
@@ -67,7 +72,7 @@ class ScriptedStream final
   void settle() {
     {
       std::lock_guard lock(mutex_);
-      if (is_done_ || !has_finished_ || reading_ != nullptr || writing_ != nullptr) return;
+      if (is_done_ || !finished_ || reading_ != nullptr || writing_ != nullptr) return;
       is_done_ = true;
     }
     call_->OnDone();
@@ -75,19 +80,19 @@ class ScriptedStream final
 
   void Read(grpc::ByteBuffer* message) override {
     std::lock_guard lock(mutex_);
-    VIEWLOOM_CHECK(reading_ == nullptr && !has_finished_);
+    VIEWLOOM_CHECK(reading_ == nullptr && !finished_);
     reading_ = message;
   }
   void Write(const grpc::ByteBuffer* message, grpc::WriteOptions) override {
     std::lock_guard lock(mutex_);
-    VIEWLOOM_CHECK(writing_ == nullptr && !has_finished_);
+    VIEWLOOM_CHECK(writing_ == nullptr && !finished_);
     writing_ = message;
   }
   void Finish(grpc::Status status) override {
     std::lock_guard lock(mutex_);
-    VIEWLOOM_CHECK(!has_finished_);
+    VIEWLOOM_CHECK(!finished_);
     VIEWLOOM_CHECK(status.ok() || !status.error_message().empty());
-    has_finished_ = true;
+    finished_ = std::move(status);
   }
   void SendInitialMetadata() override { VIEWLOOM_CHECK(false); }
   void WriteAndFinish(const grpc::ByteBuffer*, grpc::WriteOptions, grpc::Status) override {
@@ -109,7 +114,7 @@ class ScriptedStream final
   std::mutex mutex_;
   grpc::ByteBuffer* reading_ = nullptr;
   const grpc::ByteBuffer* writing_ = nullptr;
-  bool has_finished_ = false;
+  std::optional<grpc::Status> finished_;
 };
 
 }  // namespace viewloom

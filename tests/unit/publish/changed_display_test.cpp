@@ -21,7 +21,7 @@ TEST(ChangedDisplay, needsNoSecondPlaceForAChange) {
   auto old = join(broadcaster, "s", quiltOf(2), before);
   demands.clear();
   const auto after = std::make_shared<Watcher>();
-  auto changed = broadcaster.subscribe("s", quiltOf(3), {}, after, nullptr, old.get());
+  auto changed = broadcaster.subscribe("s", quiltOf(3), {}, after, nullptr, old->place());
   ASSERT_TRUE(changed.ok()) << changed.status();
   EXPECT_EQ(broadcaster.displays("s").size(), 1u);
   EXPECT_THAT(demands, Contains("s"));
@@ -32,7 +32,7 @@ TEST(ChangedDisplay, needsNoSecondPlaceForAChange) {
   EXPECT_THAT(before->sequences(), IsEmpty());
   // The same display again keeps its newest atlas.
   const auto again = std::make_shared<Watcher>();
-  auto same = broadcaster.subscribe("s", quiltOf(3), {}, again, nullptr, changed->get());
+  auto same = broadcaster.subscribe("s", quiltOf(3), {}, again, nullptr, (*changed)->place());
   ASSERT_TRUE(same.ok()) << same.status();
   EXPECT_THAT(again->sequences(), ElementsAre(1));
 }
@@ -42,8 +42,8 @@ TEST(ChangedDisplay, keepsTheOldPlaceOfAChangeThatItRefuses) {
   const auto watcher = std::make_shared<Watcher>();
   const auto old = join(broadcaster, "s", quiltOf(2), watcher);
   const auto other = join(broadcaster, "s", quiltOf(2), std::make_shared<Watcher>());
-  const auto refused =
-      broadcaster.subscribe("s", quiltOf(3), {}, std::make_shared<Watcher>(), nullptr, old.get());
+  const auto refused = broadcaster.subscribe("s", quiltOf(3), {}, std::make_shared<Watcher>(),
+                                             nullptr, old->place());
   EXPECT_EQ(refused.status().code(), absl::StatusCode::kResourceExhausted);
   broadcaster.publish(atlasOf(old->displayId(), 1));
   EXPECT_THAT(watcher->sequences(), ElementsAre(1));

@@ -180,7 +180,7 @@ TEST_F(SecondRungTest, givesAReaderTheNewestAtlas) {
   ASSERT_TRUE(move(slow_, *wanted).ok());
   broadcaster_.publish(atlasOf(fast_.place->displayId(), 7));
   const auto watcher = std::make_shared<Watcher>();
-  const RungMove back = {slow_.place->displayId(), slow_.place->subscriberId(), VideoRung::kFirst};
+  const RungMove back = {slow_.place->place(), VideoRung::kFirst};
   const auto place = broadcaster_.moveToRung(back, watcher, now_ns_);
   ASSERT_TRUE(place.ok()) << place.status();
   EXPECT_THAT(watcher->sequences(), testing::ElementsAre(7));
@@ -204,7 +204,7 @@ TEST_F(SecondRungTest, getsAnAtlasThatNeedsNoOtherAlsoForAReaderThatMayNotTakeIt
   slow_.place->beginWrite(20'000'000, now_ns_);
   slow_.place->endAtlas(now_ns_);
   ASSERT_FALSE(slow_.place->mayBegin(now_ns_));
-  const RungMove back = {slow_.place->displayId(), slow_.place->subscriberId(), VideoRung::kFirst};
+  const RungMove back = {slow_.place->place(), VideoRung::kFirst};
   ASSERT_TRUE(move(slow_, back).ok());
   EXPECT_TRUE(chain->wantsAgain(now_ns_ + 300 * kMs)) << "frames may stand";
 }
