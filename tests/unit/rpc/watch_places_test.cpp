@@ -15,7 +15,7 @@
 #include "fuzz/scripted_stream.h"
 #include "messages/wire_message.h"
 #include "rpc/watch_call.h"
-#include "unit/publish/watcher.h"
+#include "unit/publish/paced_readers.h"
 #include "unit/web/no_eyes.h"
 #include "viewloom/v1/display_service.pb.h"
 
@@ -25,6 +25,7 @@ namespace {
 using testing::EndsWith;
 
 constexpr const char* kScene = "scene";
+constexpr int64_t kMs = 1'000'000;
 constexpr uint64_t kNeverMade = 1'000'000;
 
 v1::StreamAtlasesRequest openVideo(v1::Prediction prediction) {
@@ -102,6 +103,19 @@ class WatchPlacesTest : public testing::Test {
     }
   }
 
+  // Ten atlases a second of each display, of which the client of the call takes none.
+  void runBesideAFastReader(int64_t duration_ms) {
+    PacedReader fast{.place = joinBeside()};
+    for (const int64_t end_ns = clock_.nowNs() + duration_ms * kMs; clock_.nowNs() < end_ns;) {
+      auto bytes = codeAtlases(broadcaster_, kScene, clock_.nowNs(), 30 * kMs);
+      fast.offer(bytes[first_id_], clock_.nowNs());
+      clock_.advance(kAtlasesApart_ns);
+      used_ns_ += kAtlasesApart_ns / 2;
+      broadcaster_.remakeStanding(clock_.nowNs());
+      call_->tick();
+    }
+  }
+
   // Layouts and headers that the client reads by now: "L2" is a layout of the second rung, "L1c"
   // one of chained video, "h3" the header of atlas 3.
   std::string told() {
@@ -121,9 +135,11 @@ class WatchPlacesTest : public testing::Test {
   }
 
   ManualClock clock_;
+  int64_t used_ns_ = 0;
+  CodingRoom room_{2, [this] { return used_ns_; }};
   int refused_count_ = 0;
   MemoryBudget memory_{uint64_t{1} << 30, [this](MemoryUse) { ++refused_count_; }};
-  Broadcaster broadcaster_{{.display_count_max = 2}, memory_};
+  Broadcaster broadcaster_{{.display_count_max = 2}, memory_, room_};
   std::function<void()> on_demand_ = [this] { serveNewDisplays(); };
   AccessControl access_{clock_};
   StreamDirectory directory_{clock_, 2};
@@ -191,6 +207,56 @@ TEST_F(WatchPlacesTest, asksForAnotherDisplayOnceForSoManyFallOuts) {
   call_->tick();
   EXPECT_EQ(refused_count_, 2);
   EXPECT_FALSE(stream_.finished().has_value());
+}
+
+TEST_F(WatchPlacesTest, getsWhatCameToTheSecondRungBeforeItHadMoved) {
+  open(v1::PREDICTION_WITHIN_ATLAS);
+  runBesideAFastReader(5000);
+  EXPECT_EQ(metrics_.rung_moves[VideoRung::kSecond].value(), 1);
+  EXPECT_THAT(told(), EndsWith("L2h1"));
+  const auto second = displays();
+  ASSERT_EQ(second.size(), 1u) << "the fast reader has left";
+  publish(second.front()->id);
+  EXPECT_EQ(told(), "h2");
+}
+
+TEST_F(WatchPlacesTest, comesBackWhereTheSecondRungEndedBeforeItHadMoved) {
+  open(v1::PREDICTION_WITHIN_ATLAS);
+  const auto beside = joinBeside();
+  on_demand_ = [this] {
+    for (const ActiveDisplayPtr& display : displays()) {
+      const bool is_second = display->encoding.rung == VideoRung::kSecond;
+      if (is_second) broadcaster_.refuse(display->id, absl::ResourceExhaustedError("planted"));
+    }
+  };
+  runBesideAFastReader(5000);
+  EXPECT_EQ(metrics_.rung_moves[VideoRung::kSecond].value(), 1);
+  EXPECT_FALSE(stream_.finished().has_value());
+  EXPECT_EQ(viewerCount(first_id_), 2u);
+  EXPECT_THAT(told(), EndsWith("L1h1"));
+}
+
+TEST_F(WatchPlacesTest, comesBackWhereTheSecondRungEnds) {
+  open(v1::PREDICTION_WITHIN_ATLAS);
+  const auto beside = joinBeside();
+  runBesideAFastReader(5000);
+  ASSERT_EQ(displays().size(), 2u);
+  broadcaster_.refuse(displays().back()->id, absl::ResourceExhaustedError("planted"));
+  call_->tick();
+  EXPECT_FALSE(stream_.finished().has_value());
+  EXPECT_EQ(viewerCount(first_id_), 2u);
+  EXPECT_THAT(told(), EndsWith("L1h1"));
+}
+
+TEST_F(WatchPlacesTest, staysWhereALimitRefusesTheSecondRung) {
+  open(v1::PREDICTION_WITHIN_ATLAS);
+  const auto beside = joinBeside();
+  const auto other = openAnother();
+  runBesideAFastReader(5000);
+  EXPECT_EQ(metrics_.rung_moves[VideoRung::kSecond].value(), 0);
+  EXPECT_EQ(viewerCount(first_id_), 2u);
+  publish(first_id_);
+  EXPECT_EQ(told(), "L1h2");
 }
 
 }  // namespace
