@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "admission/memory_budget.h"
 #include "base/clock.h"
 #include "base/str_cat.h"
 #include "e2e/collecting_subscriber.h"
@@ -60,6 +61,8 @@ struct ServerOptions {
   uint32_t encode_thread_count = 2;
   uint32_t trace_slot_count = EngineOptions{}.trace_slot_count;
   AtlasLimits atlas_limits = {};
+  // Pictures of video wait in it to be coded. Outlives the server.
+  MemoryBudget& memory = unboundedMemory();
   // Not empty: makes the engines, in place of makeEngines().
   std::function<Engines(const Device& device)> make_engines = {};
 };
@@ -79,7 +82,8 @@ class PipelineFixture : public GpuTest {
                .metrics = metrics,
                .broadcaster = broadcaster,
                .directory = directory,
-               .on_failure = [](const std::exception& error) { ADD_FAILURE() << error.what(); }},
+               .on_failure = [](const std::exception& error) { ADD_FAILURE() << error.what(); },
+               .memory = options.memory},
               {.encode_thread_count = options.encode_thread_count,
                .atlas_limits = options.atlas_limits}) {
       broadcaster.onDemandChange(
