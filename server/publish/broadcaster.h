@@ -53,6 +53,8 @@ struct RungMove {
   VideoRung to = VideoRung::kSecond;
 };
 
+class Member;
+
 struct BroadcasterLimits {
   uint32_t display_count_max = 64;
   uint32_t subscriber_count_max = 1024;
@@ -139,7 +141,7 @@ class Broadcaster {
 class Broadcaster::Subscription {
  public:
   // `line`: what is known of the subscriber's line; none = it is a newcomer.
-  Subscription(std::shared_ptr<State> state, const ActiveDisplay& display, uint64_t subscriber_id,
+  Subscription(std::shared_ptr<State> state, const ActiveDisplay& display, const Member& member,
                const std::optional<ReaderLine>& line = std::nullopt);
   ~Subscription();
   uint64_t displayId() const { return place_.display_id; }

@@ -126,8 +126,7 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::subscrib
   const absl::StatusOr<State::Joined> joined =
       state_->take(display, keyOf(display), subscriber, replaced);
   VIEWLOOM_RETURN_IF_ERROR(joined.status());
-  auto subscription =
-      std::make_unique<Subscription>(state_, *joined->display, joined->member->id());
+  auto subscription = std::make_unique<Subscription>(state_, *joined->display, *joined->member);
   if (joined->isOutOfChain()) {
     joined->display->chain->wantAtOnce();
     state_->announce(stream);
@@ -157,21 +156,20 @@ absl::StatusOr<std::unique_ptr<Broadcaster::Subscription>> Broadcaster::moveToRu
   if (!joined.ok() && *has_paid) state_->coding_room.giveBack();
   VIEWLOOM_RETURN_IF_ERROR(joined.status());
   auto subscription =
-      std::make_unique<Subscription>(state_, *joined->display, joined->member->id(), line);
+      std::make_unique<Subscription>(state_, *joined->display, *joined->member, line);
   if (joined->isOutOfChain()) joined->display->chain->want();
   state_->tell(*joined);
   return subscription;
 }
 
 Broadcaster::Subscription::Subscription(std::shared_ptr<State> state, const ActiveDisplay& display,
-                                        uint64_t subscriber_id,
-                                        const std::optional<ReaderLine>& line)
+                                        const Member& member, const std::optional<ReaderLine>& line)
     : state_(std::move(state)),
-      place_{display.id, subscriber_id},
+      place_{display.id, member.id()},
       rung_(display.encoding.rung),
       coding_(display.coding),
       chain_(display.chain) {
-  if (coding_) coding_->join(subscriber_id, line);
+  if (coding_) coding_->join(member.id(), member.payer(), line);
 }
 
 LineFit Broadcaster::Subscription::fitOfFirstRung(int64_t now_ns) const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,13 @@ QualityRange rangeOf(const EncodingSpec& encoding) {
           .bits_per_second_max = encoding.bits_per_second_max};
 }
 
+// The larger one of the two in the middle of an even count. Expects one value at least.
+double upperMedian(std::vector<double>& values) {
+  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 }  // namespace
 
 DisplayCoding::DisplayCoding(const EncodingSpec& encoding)
@@ -34,56 +42,57 @@ ReaderLine DisplayCoding::newLine() const {
   return {.link = {}, .allowance = RateAllowance(range_.bits_per_second_max), .rung = {}};
 }
 
-void DisplayCoding::join(uint64_t reader, const std::optional<ReaderLine>& line) {
+void DisplayCoding::join(uint64_t reader, const Payer& client,
+                         const std::optional<ReaderLine>& line) {
   std::lock_guard lock(mutex_);
-  lines_.try_emplace(reader, line ? *line : newLine());
+  readers_.try_emplace(reader, Reader{.client = client, .line = line ? *line : newLine()});
 }
 
 void DisplayCoding::leave(uint64_t reader) {
   std::lock_guard lock(mutex_);
-  lines_.erase(reader);
+  readers_.erase(reader);
 }
 
 void DisplayCoding::beginWrite(uint64_t reader, uint64_t bytes, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const auto line = lines_.find(reader);
-  if (line == lines_.end()) return;
-  line->second.link.beginWrite(bytes, now_ns);
-  line->second.allowance.note(bytes, now_ns);
+  const auto found = readers_.find(reader);
+  if (found == readers_.end()) return;
+  found->second.line.link.beginWrite(bytes, now_ns);
+  found->second.line.allowance.note(bytes, now_ns);
 }
 
 void DisplayCoding::endWrite(uint64_t reader, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const auto line = lines_.find(reader);
-  if (line != lines_.end()) line->second.link.endWrite(now_ns);
+  const auto found = readers_.find(reader);
+  if (found != readers_.end()) found->second.line.link.endWrite(now_ns);
 }
 
 void DisplayCoding::endAtlas(uint64_t reader, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const auto line = lines_.find(reader);
-  if (line != lines_.end()) line->second.link.endAtlas(now_ns);
+  const auto found = readers_.find(reader);
+  if (found != readers_.end()) found->second.line.link.endAtlas(now_ns);
 }
 
 bool DisplayCoding::mayBegin(uint64_t reader, int64_t now_ns) const {
   if (range_.bits_per_second_max == 0) return true;
   std::lock_guard lock(mutex_);
-  const auto line = lines_.find(reader);
-  if (line == lines_.end()) return true;
-  return line->second.link.recentBytes(now_ns) * 8 < range_.bits_per_second_max &&
-         line->second.allowance.isOpen(now_ns);
+  const auto found = readers_.find(reader);
+  if (found == readers_.end()) return true;
+  return found->second.line.link.recentBytes(now_ns) * 8 < range_.bits_per_second_max &&
+         found->second.line.allowance.isOpen(now_ns);
 }
 
 ReaderLine DisplayCoding::lineOf(uint64_t reader) const {
   std::lock_guard lock(mutex_);
-  const auto line = lines_.find(reader);
-  return line == lines_.end() ? newLine() : line->second;
+  const auto found = readers_.find(reader);
+  return found == readers_.end() ? newLine() : found->second.line;
 }
 
 LineSpeed DisplayCoding::speedOf(uint64_t reader, int64_t now_ns) const {
   std::lock_guard lock(mutex_);
-  const auto line = lines_.find(reader);
-  if (line == lines_.end()) return {};
-  const ReaderLink& link = line->second.link;
+  const auto found = readers_.find(reader);
+  if (found == readers_.end()) return {};
+  const ReaderLink& link = found->second.line.link;
   return {.bytes_per_second = link.bytesPerSecond(now_ns),
           .recent_bytes = link.recentBytes(now_ns)};
 }
@@ -100,8 +109,8 @@ LineFit DisplayCoding::fitOf(const LineSpeed& speed, int64_t now_ns) const {
 
 bool DisplayCoding::wantsOtherRung(uint64_t reader, LineFit first, int64_t now_ns) {
   std::lock_guard lock(mutex_);
-  const auto line = lines_.find(reader);
-  return line != lines_.end() && line->second.rung.wantsOther(first, now_ns);
+  const auto found = readers_.find(reader);
+  return found != readers_.end() && found->second.line.rung.wantsOther(first, now_ns);
 }
 
 uint32_t DisplayCoding::beginAtlas(int64_t now_ns) {
@@ -155,23 +164,35 @@ bool DisplayCoding::isWanted() const {
   return is_wanted_;
 }
 
-// Readers without a limit are faster than all others.
-std::optional<double> DisplayCoding::medianSpeed(int64_t now_ns) const {
-  std::vector<double> speeds;
-  for (const auto& [reader, line] : lines_) {
-    speeds.push_back(line.link.bytesPerSecond(now_ns).value_or(HUGE_VAL));
+template <typename ValueOf>
+std::optional<double> DisplayCoding::median(const ValueOf& value_of) const {
+  std::map<std::string_view, std::vector<double>> of_clients;
+  for (const auto& [number, reader] : readers_) {
+    const std::optional<double> value = value_of(reader.line.link);
+    if (value) of_clients[reader.client.name()].push_back(*value);
   }
-  if (speeds.empty()) return std::nullopt;
-  const auto median = speeds.begin() + std::ptrdiff_t(speeds.size() / 2);
-  std::ranges::nth_element(speeds, median);
-  return std::isinf(*median) ? std::nullopt : std::optional(*median);
+  if (of_clients.empty()) return std::nullopt;
+  std::vector<double> medians;
+  medians.reserve(of_clients.size());
+  for (auto& [client, values] : of_clients) medians.push_back(upperMedian(values));
+  return upperMedian(medians);
 }
 
-// One reader that takes nothing does not hold the others back, as with the median.
+// Readers without a limit are faster than all others.
+std::optional<double> DisplayCoding::medianSpeed(int64_t now_ns) const {
+  const std::optional<double> speed = median([&](const ReaderLink& link) -> std::optional<double> {
+    if (link.recentBytes(now_ns) == 0) return std::nullopt;
+    return link.bytesPerSecond(now_ns).value_or(HUGE_VAL);
+  });
+  return speed && std::isinf(*speed) ? std::nullopt : speed;
+}
+
+// One client that takes nothing does not hold the others back, as with the median.
 bool DisplayCoding::isIdle() const {
-  const auto writing_count = std::ranges::count_if(
-      lines_, [](const auto& entry) { return entry.second.link.isWriting(); });
-  return 2 * size_t(writing_count) <= lines_.size();
+  constexpr double kIdle = 1;
+  const std::optional<double> idle = median(
+      [](const ReaderLink& link) -> std::optional<double> { return link.isWriting() ? 0 : kIdle; });
+  return idle.value_or(kIdle) == kIdle;
 }
 
 }  // namespace viewloom

@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 
+#include "base/payer.h"
 #include "display/display_spec.h"
 #include "publish/line_fit.h"
 #include "publish/quality_rung.h"
@@ -24,9 +25,11 @@ struct ReaderLine {
   ReaderRung rung;
 };
 
-// A rung follows the median of its readers' lines; of two readers, the faster one. Slower readers
-// skip atlases, until they are moved to the other rung. Once frames stand, the last atlas is coded
-// again at the finest quality.
+// A rung follows the median of its clients' lines; of two, the faster one. The line of a client is
+// the median of those of its readers, so that nobody counts more with more connections. A reader
+// that got nothing in the last second shows nothing, and does not count. Slower readers skip
+// atlases, until they are moved to the other rung. Once frames stand, the last atlas is coded again
+// at the finest quality.
 // Times are monotonic. Thread-safety: all methods may be called from any thread.
 class DisplayCoding {
  public:
@@ -38,7 +41,8 @@ class DisplayCoding {
   std::shared_ptr<DisplayCoding> otherRung() const;
 
   // For readers, each under a number of its own.
-  void join(uint64_t reader, const std::optional<ReaderLine>& line = std::nullopt);
+  void join(uint64_t reader, const Payer& client,
+            const std::optional<ReaderLine>& line = std::nullopt);
   void leave(uint64_t reader);
   void beginWrite(uint64_t reader, uint64_t bytes, int64_t now_ns);
   void endWrite(uint64_t reader, int64_t now_ns);
@@ -80,18 +84,27 @@ class DisplayCoding {
   bool isWanted() const;
 
  private:
+  struct Reader {
+    Payer client;
+    ReaderLine line;
+  };
+
   // All that is known of a newcomer.
   ReaderLine newLine() const;
   // With the lock: the next atlas begins, at this quantisation at most.
   uint32_t begin(uint32_t qp_max, int64_t now_ns);
+  // Value of a reader, by the median of its client, and of all clients; of two, the larger one.
+  // `value_of`: of one reader; none = it does not count. None where nobody does.
+  template <typename ValueOf>
+  std::optional<double> median(const ValueOf& value_of) const;
   std::optional<double> medianSpeed(int64_t now_ns) const;
-  // Half of the readers, or more, have all that they were written.
+  // Half of the clients, or more, have all that they were written.
   bool isIdle() const;
 
   const QualityRange range_;
   mutable std::mutex mutex_;  // guards what follows
   QualityRung rung_;
-  std::map<uint64_t, ReaderLine> lines_;
+  std::map<uint64_t, Reader> readers_;
   int64_t coding_ns_ = 0;  // of an atlas, as last noted; 0 = none yet
   bool is_wanted_ = false;
   uint32_t last_qp_ = 0;  // of the newest atlas; 0 = none yet

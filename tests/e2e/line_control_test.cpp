@@ -114,7 +114,7 @@ int64_t medianLatencyNs(const std::vector<Arrival>& arrivals) {
 TEST(LineControl, followsALineDownAndUpWithoutAGap) {
   Connection connection;
   DisplayCoding coding({.color = BandEncoding::kH264, .video_qp = 24, .video_qp_max = 40});
-  coding.join(kReader);
+  coding.join(kReader, Payer());
   std::vector<Arrival> arrivals;
   std::jthread reader([&] {
     std::vector<uint8_t> bytes(bytesAt(24));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ class Reader {
  public:
   Reader(DisplayCoding& coding, uint64_t number, double mbit_per_second)
       : coding_(coding), number_(number), line_(mbit_per_second) {
-    coding_.join(number_);
+    coding_.join(number_, Payer("client " + std::to_string(number_)));
   }
 
   void setSpeed(double mbit_per_second, int64_t now_ns) {
@@ -174,7 +175,7 @@ TEST_F(DisplayCodingTest, wantsTheFinestOnceFramesStand) {
 TEST_F(DisplayCodingTest, wantsTheFinestAlsoWhereOneReaderOfTwoTakesNothing) {
   Reader reader(coding_, 1, 20);
   runUntil(5 * kSecond, {&reader});
-  coding_.join(2);
+  coding_.join(2, Payer("client 2"));
   coding_.beginWrite(2, 1'000'000, now_ns_);
   runUntil(7 * kSecond, {&reader}, false);
   EXPECT_TRUE(coding_.wantsFiner(now_ns_));
