@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -27,11 +28,18 @@ grpc::ByteBuffer shortMessage() {
 
 class TakingCall final : public RawReactor {
  public:
-  explicit TakingCall(uint64_t frame_bytes) : frame_bytes_(frame_bytes) { StartRead(&incoming_); }
+  TakingCall(uint64_t frame_bytes, Received received) : frame_bytes_(frame_bytes) {
+    if (received == Received::kKept) kept_.emplace(frame_bytes);
+    StartRead(&incoming_);
+  }
 
   void OnReadDone(bool ok) override {
     if (!ok) {
       Finish(grpc::Status::OK);
+      return;
+    }
+    if (kept_ && !kept_->add(incoming_)) {
+      Finish({grpc::StatusCode::INTERNAL, "a message cannot be read"});
       return;
     }
     byte_count_ += incoming_.Length();
@@ -51,6 +59,7 @@ class TakingCall final : public RawReactor {
 
  private:
   const uint64_t frame_bytes_;
+  std::optional<KeptMessages> kept_;  // none: they are dropped
   uint64_t byte_count_ = 0;
   grpc::ByteBuffer incoming_;
   grpc::ByteBuffer outgoing_;
@@ -98,17 +107,34 @@ class GivingCall final : public RawReactor {
 
 }  // namespace
 
+bool KeptMessages::add(const grpc::ByteBuffer& message) {
+  if (byte_count_ == whole_bytes_) {
+    messages_.clear();
+    byte_count_ = 0;
+  }
+  std::vector<grpc::Slice> slices;
+  if (!message.Dump(&slices).ok()) return false;
+  std::string& copy = messages_.emplace_back();
+  copy.reserve(message.Length());
+  for (const grpc::Slice& slice : slices) {
+    copy.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
+  }
+  byte_count_ += copy.size();
+  return true;
+}
+
 class BareServer::Taker final
     : public v1::IngestService::WithRawCallbackMethod_PublishFrames<v1::IngestService::Service> {
  public:
-  explicit Taker(uint64_t frame_bytes) : frame_bytes_(frame_bytes) {}
+  Taker(uint64_t frame_bytes, Received received) : frame_bytes_(frame_bytes), received_(received) {}
 
  private:
   RawReactor* PublishFrames(grpc::CallbackServerContext* /*context*/) override {
-    return new TakingCall(frame_bytes_);
+    return new TakingCall(frame_bytes_, received_);
   }
 
   const uint64_t frame_bytes_;
+  const Received received_;
 };
 
 class BareServer::Giver final
@@ -129,8 +155,9 @@ class BareServer::Giver final
   SharedBytes frame_;
 };
 
-BareServer::BareServer(uint64_t frame_bytes)
-    : taker_(std::make_unique<Taker>(frame_bytes)), giver_(std::make_unique<Giver>(frame_bytes)) {
+BareServer::BareServer(uint64_t frame_bytes, Received received)
+    : taker_(std::make_unique<Taker>(frame_bytes, received)),
+      giver_(std::make_unique<Giver>(frame_bytes)) {
   grpc::ServerBuilder builder;
   builder.SetMaxReceiveMessageSize(2 * int{kMessage_bytes});
   // Clients ask whether it is there while other ways are measured, as often as they like.

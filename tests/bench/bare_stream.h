@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The floor of any gRPC stream, in either direction: calls whose messages nobody reads into
-// anything.
+// The floor of any gRPC stream, in either direction: calls whose messages are dropped, or copied
+// once.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,30 @@
 
 namespace viewloom::bench {
 
-// Takes calls of IngestService/PublishFrames, drops what comes, and answers every `frame_bytes`
-// with one message. Takes calls of DisplayService/StreamAtlases, and answers every message with
-// `frame_bytes` in messages of 1 MiB that share their bytes.
+// The least that a receiver does with a frame or an atlas of so many bytes: it holds all of it in
+// memory of its own.
+class KeptMessages {
+ public:
+  explicit KeptMessages(uint64_t whole_bytes) : whole_bytes_(whole_bytes) {}
+
+  // Copies the message. False: it cannot be read.
+  bool add(const grpc::ByteBuffer& message);
+
+ private:
+  const uint64_t whole_bytes_;
+  uint64_t byte_count_ = 0;
+  std::vector<std::string> messages_;  // of the newest
+};
+
+// Fate of the messages that a BareServer receives.
+enum class Received : uint8_t { kDropped, kKept };
+
+// Takes calls of IngestService/PublishFrames, drops or keeps what comes, and answers every
+// `frame_bytes` with one message. Takes calls of DisplayService/StreamAtlases, and answers every
+// message with `frame_bytes` in messages of 1 MiB that share their bytes.
 class BareServer {
  public:
-  explicit BareServer(uint64_t frame_bytes);
+  explicit BareServer(uint64_t frame_bytes, Received received = Received::kDropped);
   ~BareServer();
 
   std::string address() const;

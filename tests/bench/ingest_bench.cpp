@@ -128,6 +128,7 @@ void measureAll(const Arguments& arguments) {
   const uint64_t atlas_bytes = uint64_t{3} * width_px * height_px;
   // All before this process has threads.
   const MeasuredProcess bare_taker = processOf<BareServer>(frame_bytes);
+  const MeasuredProcess keeping_taker = processOf<BareServer>(frame_bytes, Received::kKept);
   const MeasuredProcess taker = processOf<TestServer>();
   const MeasuredProcess bare_giver = processOf<BareServer>(atlas_bytes);
   const MeasuredProcess bare_keeper = processOf<BareServer>(atlas_bytes);
@@ -138,6 +139,7 @@ void measureAll(const Arguments& arguments) {
   };
   add("memcpy", frame_bytes, copyWay(frame));
   add("frames in, gRPC alone", frame_bytes, bareSendingWay(frame, bare_taker));
+  add("frames in, gRPC and one copy", frame_bytes, bareSendingWay(frame, keeping_taker));
   add("frames in", frame_bytes, publishingWay(frame, taker));
   add("atlases out, gRPC alone", atlas_bytes, bareReceivingWay(atlas_bytes, bare_giver));
   add("atlases out, gRPC and one copy", atlas_bytes, bareKeepingWay(atlas_bytes, bare_keeper));

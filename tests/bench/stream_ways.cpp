@@ -134,32 +134,6 @@ class BareReceiving final : public MeasuredWay {
   BareReceiver receiver_;
 };
 
-// The least that a viewer does with an atlas: it holds all of it in memory of its own.
-class KeptAtlas {
- public:
-  explicit KeptAtlas(uint64_t atlas_bytes) : atlas_bytes_(atlas_bytes) {}
-
-  void add(const grpc::ByteBuffer& message) {
-    if (byte_count_ == atlas_bytes_) {
-      bands_.clear();
-      byte_count_ = 0;
-    }
-    std::vector<grpc::Slice> slices;
-    if (!message.Dump(&slices).ok()) throw std::runtime_error("a message cannot be read");
-    std::string& band = bands_.emplace_back();
-    band.reserve(message.Length());
-    for (const grpc::Slice& slice : slices) {
-      band.append(reinterpret_cast<const char*>(slice.begin()), slice.size());
-    }
-    byte_count_ += band.size();
-  }
-
- private:
-  const uint64_t atlas_bytes_;
-  uint64_t byte_count_ = 0;
-  std::vector<std::string> bands_;
-};
-
 class Watched final : public MeasuredWay {
  public:
   Watched(uint32_t width_px, uint32_t height_px, const MeasuredProcess& there)
@@ -213,9 +187,12 @@ std::unique_ptr<Way> bareReceivingWay(uint64_t atlas_bytes, const MeasuredProces
 }
 
 std::unique_ptr<Way> bareKeepingWay(uint64_t atlas_bytes, const MeasuredProcess& there) {
-  const auto atlas = std::make_shared<KeptAtlas>(atlas_bytes);
-  return std::make_unique<BareReceiving>(
-      atlas_bytes, there, [atlas](const grpc::ByteBuffer& message) { atlas->add(message); });
+  const auto atlas = std::make_shared<KeptMessages>(atlas_bytes);
+  return std::make_unique<BareReceiving>(atlas_bytes, there,
+                                         [atlas](const grpc::ByteBuffer& message) {
+                                           if (!atlas->add(message))
+                                             throw std::runtime_error("a message cannot be read");
+                                         });
 }
 
 std::unique_ptr<Way> watchingWay(uint32_t width_px, uint32_t height_px,
