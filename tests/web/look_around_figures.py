@@ -4,9 +4,9 @@
     look_around_figures.py VIEWLOOMD VIEWLOOM [--seconds 10] [--gpu]
 
 pictures a second, their height and motion to picture while the pointer moves sideways, and while it
-turns about the scene; the height of the first picture, and how soon one that stands is sharp; and
-bytes of compact depth; and pictures a second of the least size that one viewer gets in free motion
-where no browser takes time. Prints JSON. --gpu: lets the browser use one, and reprojection with it."""
+turns about the scene; the height of the first picture, and how soon one that stands is sharp; bytes
+of compact depth; and pictures a second of the least size that one viewer gets in free motion where
+no browser takes time. Prints JSON. --gpu: lets the browser use one, and reprojection with it."""
 import argparse
 import json
 import math
