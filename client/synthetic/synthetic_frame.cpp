@@ -121,7 +121,7 @@ class FrameRenderer {
     const auto code = [](float value) { return static_cast<uint8_t>(std::lround(255 * value)); };
     layer.normal[px] = synthetic::octahedron(normal);
     layer.roughness[px] = code(gloss.roughness);
-    for (int i = 0; i < 3; ++i) layer.specular[3 * px + i] = code(gloss.light[i]);
+    for (int i = 0; i < 3; ++i) layer.specular[3 * px + size_t(i)] = code(gloss.light[i]);
   }
 
   const synthetic::Scene scene_;

@@ -104,7 +104,7 @@ Finding checkCertificate(const TlsConfig& tls) {
 
 std::string coresText(const Processors& processors) {
   const uint32_t allowed_count = processors.allowed_count;
-  const std::string allowed = strCat(allowed_count, allowed_count == 1 ? " core" : " cores");
+  std::string allowed = strCat(allowed_count, allowed_count == 1 ? " core" : " cores");
   if (!processors.isLimited()) return allowed;
   return strCat(processors.busyMax(), " of ", allowed, ", limited by a cgroup");
 }
