@@ -37,7 +37,10 @@ absl::StatusOr<AtlasPicture> ColorDecoder::decode(const Atlas& atlas) {
 
 absl::Status ColorDecoder::prepare(const Atlas& atlas) {
   const uint64_t reference = atlas.header.reference_sequence();
-  if (reference != 0) return reference == sequence_ ? absl::OkStatus() : refusedReference(atlas);
+  if (reference != 0) {
+    const bool is_known = decoder_ != nullptr && reference == sequence_;
+    return is_known ? absl::OkStatus() : refusedReference(atlas);
+  }
   // Pictures of another size, too, come with a new decoder.
   auto decoder = OpenH264Decoder::make();
   VIEWLOOM_RETURN_IF_ERROR(decoder.status());

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/log.h"
+#include "video/annex_b.h"
 
 namespace viewloom {
 namespace {
@@ -128,12 +129,17 @@ void beginVideo(const AtlasOutput& output, int64_t now_ns, EncodedAtlas& atlas) 
   output.video->begin(std::move(start));
 }
 
-// Readers learn what an atlas takes by those before it. Of a chain, those that need no other are
-// few and large, and say nothing about the rest.
+bool beginsAnew(const EncodedAtlas& atlas) {
+  return std::ranges::any_of(nalUnits(*atlas.bands.front().bytes),
+                             [](const NalUnit& unit) { return unit.type() == NalType::kIdrSlice; });
+}
+
+// Readers learn what an atlas takes by those before it. Of a chain, those that begin anew are few
+// and large, and say nothing about the rest: also where an encoder had to, unasked.
 void noteCoded(const AtlasOutput& output, const EncodedAtlas& atlas) {
   const ActiveDisplay& display = *output.display;
   if (display.chain) display.chain->noteWhole(atlas.sequence);
-  const bool is_usual = !display.chain || atlas.reference_sequence != 0;
+  const bool is_usual = !display.chain || !beginsAnew(atlas);
   if (display.coding && is_usual) display.coding->noteCoded(atlas.video_qp, atlas.byteCount());
   if (display.coding) display.coding->noteCodingTime(output.video->codingNs());
 }

@@ -27,7 +27,7 @@ AtlasOutput makeOutput(ActiveDisplayPtr display, const AtlasLayout& layout) {
   return output;
 }
 
-// Displays of one picture are all chained, or none; where they differ, the first rung decides.
+// Displays of one picture are all chained, or none; where their orders differ, the oldest decides.
 PictureOrder orderOfPictures(const ActiveDisplay& display) {
   return display.chain ? display.chain->nextOrder() : PictureOrder::kForward;
 }

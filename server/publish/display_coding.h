@@ -27,10 +27,10 @@ struct ReaderLine {
 
 // A rung follows the median of its clients' lines; of two, the faster one. The line of a client is
 // the median of those of its readers, so that nobody counts more with more connections. A reader
-// that got nothing in the last second shows nothing, and does not count. Slower readers skip
-// atlases, until they are moved to the other rung. Once frames stand, the last atlas is coded again
-// at the finest quality.
-// Times are monotonic. Thread-safety: all methods may be called from any thread.
+// to which nothing was on its way in the last second shows nothing, and does not count. Slower
+// readers skip atlases, until they are moved to the other rung. Once frames stand, the last atlas
+// is coded again at the finest quality. Times are monotonic. Thread-safety: all methods may be
+// called from any thread.
 class DisplayCoding {
  public:
   // Expects an encoding that adapts to lines (adaptsToLines).

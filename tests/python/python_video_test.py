@@ -184,6 +184,18 @@ class Video(unittest.TestCase):
         with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*refers to atlas 1"):
             list(decoder.decode(self.units, AtlasHeader(sequence=2, reference_sequence=1), layout))
 
+    def test_pictures_beyond_what_memory_is_for_are_refused(self):
+        layout = layout_of(self.views, self.video)
+        layout.view_count = layout.columns = 5000
+        layout.size.width = layout.columns * layout.tile_size.width
+        layout.video.columns = layout.video.rows = 1
+        layout.video.cell_size.width = layout.video.picture_size.width = 4096
+        layout.video.cell_size.height = layout.video.picture_size.height = 2176
+        layout.video.picture_count = 5000
+        decoder = VideoDecoder()
+        with self.assertRaisesRegex(viewloom.ViewloomError, "DATA_LOSS: .*do not hold the views"):
+            list(decoder.decode([b""] * 5000, AtlasHeader(sequence=1), layout))
+
     def test_chained_video_needs_video(self):
         with self.assertRaisesRegex(viewloom.BadInput, "chained"):
             viewloom.encoding(chained=True)

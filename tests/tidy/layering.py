@@ -77,7 +77,8 @@ LAYERS = {
     # Only make_engines includes the inside of an engine.
     "server/pipeline": (["base", "frame", "config", "decode", "display", "picture", "admission",
                          ENGINE, "engine/engines.h", "eye_poses", "retime", "temporal", "encode",
-                         "publish", "schedule", "metrics", "video/encoder_choice.h",
+                         "publish", "schedule", "metrics", "video/annex_b.h",
+                         "video/encoder_choice.h",
                          SHADERS_SHARED],
                         ["absl", "glm"]),
     "server/rpc": (["base", "access", "frame", "decode", "display", "admission", "eye_poses",

@@ -142,7 +142,10 @@ class Atlas:
              for bands in pictures], self.layout)
 
     def access_units(self) -> list[bytes]:
-        """Pictures of H.264, by their numbers. Raises BadInput where colour is no video."""
+        """Pictures of H.264, by their numbers. Raises BadInput where colour is no video.
+
+        A player takes them joined, from the last to the first if header.is_backward.
+        """
         if not self.layout.HasField("video"):
             raise BadInput("encoding", "is not H.264: there are no pictures of a video; use color")
         return [b"".join(band.data for band in self._bands_of(atlas_pb2.ATLAS_PLANE_COLOR, picture))

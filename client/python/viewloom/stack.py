@@ -17,6 +17,8 @@ from viewloom.v1.atlas_pb2 import AtlasLayout, VideoStack
 from viewloom.v1.display_service_pb2 import AtlasHeader
 
 _Sample = TypeVar("_Sample", bound=np.generic)
+# Pixels of all pictures together; decoded, each takes 1.5 bytes. As the client in C++.
+_STACK_AREA_MAX_PX = 1 << 29
 
 
 def _check(layout: AtlasLayout) -> VideoStack:
@@ -25,6 +27,9 @@ def _check(layout: AtlasLayout) -> VideoStack:
     cells = video.picture_count * video.columns * video.rows
     is_whole = (
         0 < layout.view_count <= min(cells, layout.columns * layout.rows)
+        and 0 < video.picture_count <= layout.view_count
+        and (video.picture_size.width * video.picture_size.height * video.picture_count
+             <= _STACK_AREA_MAX_PX)
         and layout.columns * tile.width <= layout.size.width
         and layout.padding_top_px + layout.rows * tile.height <= layout.size.height
         and 0 < tile.width <= video.cell_size.width and 0 < tile.height <= video.cell_size.height
@@ -90,12 +95,6 @@ def painted(pictures: Iterable[tuple[int, h264.Picture]],
                                                             tile.height)
     whole.flags.writeable = False
     return whole
-
-
-def _check_count(access_units: Sequence[bytes], video: VideoStack) -> None:
-    if len(access_units) != video.picture_count:
-        raise data_loss(f"{len(access_units)} pictures of H.264 came, the layout has "
-                        f"{video.picture_count}")
 
 
 class VideoDecoder:

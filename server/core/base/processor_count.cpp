@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/processor_count.h"
 
+#include <sched.h>
+
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -31,6 +33,16 @@ std::optional<double> quotaIn(const CgroupFolder& folder) {
   return double(quota_us) / double(period_us);
 }
 
+// By the affinity mask of this process; std::thread::hardware_concurrency() of glibc leaves it out.
+uint32_t allowedCount() {
+  cpu_set_t allowed;
+  // Fails on machines of more than 1024 processors.
+  if (sched_getaffinity(0, sizeof allowed, &allowed) != 0) {
+    return std::thread::hardware_concurrency();
+  }
+  return uint32_t(CPU_COUNT(&allowed));
+}
+
 }  // namespace
 
 uint32_t Processors::threadCount() const {
@@ -47,7 +59,7 @@ Processors readProcessors(const std::filesystem::path& root, uint32_t allowed_co
 }
 
 const Processors& processors() {
-  static const Processors own = readProcessors("/", std::thread::hardware_concurrency());
+  static const Processors own = readProcessors("/", allowedCount());
   return own;
 }
 

@@ -71,12 +71,14 @@ uint64_t codecBytes(const PlaneFormat& plane) {
   constexpr uint64_t kPictureBytes = 9;
   constexpr uint64_t kBlockBytes = 11;  // vectors, modes and coefficients of blocks
   constexpr uint64_t kBlock_px = 16;
+  constexpr uint64_t kChromaBytes = 2;  // at the size of luma, on its way to RGB
   constexpr uint64_t kRim_px = 2 * 32 + 46;
   const uint64_t width_px = std::max(plane.size_px.width, 1U);
   const uint64_t height_px =
       std::min<uint64_t>(plane.size_px.height, kH264PictureMax_px / width_px + 1);
   return kDecoderBytes + kPictureBytes * (width_px + kRim_px) * (height_px + kRim_px) +
-         kBlockBytes * (width_px + kBlock_px) * (height_px + kBlock_px) + 2 * plane.wire_bytes;
+         kBlockBytes * (width_px + kBlock_px) * (height_px + kBlock_px) +
+         kChromaBytes * (width_px + 1) * height_px + 2 * plane.wire_bytes;
 }
 
 uint32_t wirePixelBytes(PlaneEncoding encoding) {

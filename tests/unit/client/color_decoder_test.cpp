@@ -48,6 +48,17 @@ TEST(ColorDecoder, refusesAnAtlasThatRefersToAMissingOne) {
   expectGreys(decoder.decode(coder.code(4, 0, 120)), 120);
 }
 
+TEST(ColorDecoder, refusesWhatFollowsWhereItWasMovedFrom) {
+  Coder coder;
+  ColorDecoder decoder;
+  expectGreys(decoder.decode(coder.code(1, 0, 40)), 40);
+  ColorDecoder other(std::move(decoder));
+  const Atlas second = coder.code(2, 1, 60);
+  expectGreys(other.decode(second), 60);
+  // NOLINTNEXTLINE(bugprone-use-after-move): it is as one that has decoded nothing.
+  EXPECT_EQ(decoder.decode(second).status().code(), absl::StatusCode::kFailedPrecondition);
+}
+
 TEST(ColorDecoder, refusesWhatFollowsADamagedAtlas) {
   Coder coder;
   ColorDecoder decoder;

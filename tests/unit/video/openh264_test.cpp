@@ -54,6 +54,23 @@ TEST(OpenH264, decodesEveryPictureOfAStackRightAway) {
   }
 }
 
+// Chained video never begins anew for a reader that keeps up. Numbers of pictures wrap meanwhile:
+// H.264 counts them in 16 bits at most.
+TEST(OpenH264, goesOnPastEveryNumberOfAPicture) {
+  constexpr int kPictures = 66'000;
+  const SizePx size_px{16, 16};
+  const auto encoder = encoderOf({.size_px = size_px, .qp = 30});
+  const auto decoder = newDecoder();
+  const SamplePicture pictures[] = {SamplePicture::texture(size_px, 0),
+                                    SamplePicture::texture(size_px, 3)};
+  for (int i = 0; i < kPictures; ++i) {
+    const auto picture = decoder->decode(coded(*encoder, pictures[i % 2], referenceOf(i)), size_px);
+    ASSERT_TRUE(picture.ok()) << i << ": " << picture.status();
+    if (i + 4 < kPictures) continue;
+    EXPECT_GT(psnrOfLuma(*picture, pictures[i % 2].video()), 30);
+  }
+}
+
 TEST(OpenH264, beginsEachAtlasWithAPictureOfItsOwn) {
   const auto encoder = encoderOf({.size_px = {64, 48}});
   for (int atlas = 0; atlas < 3; ++atlas) {
