@@ -98,6 +98,7 @@ std::string displayKey(const DisplaySpec& spec) {
   return key.take();
 }
 
+// Chained atlases have pictures in an order of their own, each atlas after the one before.
 std::string arrangementKey(const EncodingSpec& encoding) {
   if (isChained(encoding)) return "chained ";
   return encoding.color == BandEncoding::kH264 ? "stacked " : "";

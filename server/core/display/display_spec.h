@@ -131,8 +131,7 @@ absl::Status validateEncodingOf(const DisplaySpec& spec, const EncodingSpec& enc
 std::string displayKey(const DisplaySpec& spec);
 std::string encodingKey(const EncodingSpec& encoding);
 // Key of the arrangement in which an encoding takes the views. Different arrangements of one
-// display are rendered apart. So are chained atlases: in an order of their own, each after the one
-// before.
+// display are rendered apart.
 std::string arrangementKey(const EncodingSpec& encoding);
 
 }  // namespace viewloom
