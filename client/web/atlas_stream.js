@@ -83,6 +83,9 @@ export class AtlasStream {
     return true;
   }
 
+  // Whether the server is there. What came from it before may still be decoded.
+  get isOpen() { return this.#socket?.readyState === WebSocket.OPEN; }
+
   // Whether an atlas came of all that was asked for.
   isNewest(atlas) {
     return atlas.header.change_count >= this.#changeCount;
@@ -90,7 +93,7 @@ export class AtlasStream {
 
   // A ViewerMessage (proto/web.md). Whether it went.
   send(message) {
-    if (this.#socket?.readyState !== WebSocket.OPEN) return false;
+    if (!this.isOpen) return false;
     this.#socket.send(JSON.stringify(message));
     return true;
   }

@@ -105,7 +105,7 @@ const decoder = new Decoder(
       const {layout} = atlas.header;
       if (display.isEye) around.take(atlas, stream.isNewest(atlas));
       stage.show(atlas);
-      setState('live', watching, viewCount());
+      if (stream.isOpen) setState('live', watching, viewCount());
       single.layoutChanged(viewCount());
       const whole = display.isEye ? {...layout, view_cone_rad: display.cone_rad} : layout;
       controls.show(whole);

@@ -174,7 +174,8 @@ class FirstVisit(PageTest):
         self.browser.click("#trouble-again")
         self.browser.wait_for("tries === 2")
         # An engine that gives a display up later is not asked for it again, either. Of one size: a
-        # page that has just asked for another one would get that.
+        # page that has just asked for another one would get that. A picture that came before may
+        # still be decoded then.
         self.open(SMALL + "&mode=quilt&detail=1")
         self.browser.evaluate("tries = 0")
         self.server.command("refuse")

@@ -4,6 +4,7 @@ JPEG. The server is fake_socket.js. Argument: the program code_stack."""
 import json
 import os
 import sys
+import time
 import unittest
 from urllib.parse import parse_qs, urlencode, urlsplit
 
@@ -16,6 +17,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 VIDEO, JPEG = "BAND_ENCODING_H264", "BAND_ENCODING_JPEG"
 DISPLAY = {"quilt": {"columns": 4, "rows": 3, "size": {"width": 512, "height": 384},
                      "aspect": 4 / 3}}
+STATE = "document.documentElement.dataset.state"
 NO_VIDEO = "delete window.VideoDecoder;"
 
 
@@ -117,6 +119,18 @@ class VideoPage(unittest.TestCase):
         self.browser.wait_for("document.getElementById('facts').textContent.includes('H.264')")
         self.assertEqual(self.browser.evaluate("said.filter(m => m.shown).at(-1)"), {"shown": 1})
         self.assertEqual(self.browser.messages, [])
+
+    def test_a_picture_that_came_before_a_refusal_does_not_hide_it(self):
+        self.open("video", encoding={"color": VIDEO})
+        self.wait_for_picture(1)
+        self.browser.evaluate("""socket.deliver().then(() => {
+              socket.onmessage({data: JSON.stringify(
+                  {error: {code: 'INVALID_ARGUMENT', message: 'no more of it'}})});
+              socket.onclose({code: 1008});
+            })""")
+        self.assertEqual(self.browser.evaluate(STATE), "refused")
+        time.sleep(2)  # the picture is decoded by then
+        self.assertEqual(self.browser.evaluate(STATE), "refused")
 
     def test_views_around_the_eye_come_as_jpeg(self):
         self.open("jpeg", mode="look", encoding={"color": VIDEO})
