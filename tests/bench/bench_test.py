@@ -225,7 +225,7 @@ class BenchTest(unittest.TestCase):
         self.assertGreater(still["smaller"], 1)
         standing, moving = report["chained"]
         self.assertEqual(standing["name"], "built-in scene, chained, still")
-        self.assertEqual(standing["pictures"], 3)
+        self.assertEqual(standing["pictures"], 12)
         self.assertGreater(standing["smaller"], moving["smaller"])
         self.assertLess(standing["h264_at_psnr_of_jpeg"]["bytes"], standing["first_bytes"])
 
