@@ -46,11 +46,11 @@ class WideChroma {
     columns_.back() = columns[count_ - 1];
   }
   void widen(uint8_t* row) const {
-    const uint16_t* const columns = columns_.data() + 1;
+    const uint16_t* const columns = columns_.data();
     for (size_t i = 0; i < count_; ++i) {
-      const auto near = uint16_t(3 * columns[i] + 8);
-      row[2 * i] = uint8_t(uint16_t(near + columns[i - 1]) >> 4);
-      row[2 * i + 1] = uint8_t(uint16_t(near + columns[i + 1]) >> 4);
+      const auto near = uint16_t(3 * columns[i + 1] + 8);
+      row[2 * i] = uint8_t(uint16_t(near + columns[i]) >> 4);
+      row[2 * i + 1] = uint8_t(uint16_t(near + columns[i + 2]) >> 4);
     }
   }
 
