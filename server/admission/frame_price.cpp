@@ -13,6 +13,7 @@ namespace {
 
 uint64_t receivingBytes(const PlaneFormat& plane) {
   if (plane.compression == PlaneCompression::kNone && isHeldAsSent(plane)) return plane.wire_bytes;
+  if (widensOnArrival(plane)) return decodedBytes(plane);
   const uint64_t unpacked_bytes = isHeldAsSent(plane) ? 0 : decodedBytes(plane);
   return plane.wire_bytes + inflatedBytesMax(plane) + unpacked_bytes + codecBytes(plane);
 }

@@ -1,13 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "decode/frame_assembly.h"
 
-#include <cstring>
 #include <utility>
 
 #include "base/check.h"
 #include "base/str_cat.h"
+#include "frame/limits.h"
+#include "frame/plane_encoding.h"
 
 namespace viewloom {
+namespace {
+
+void describeAsKept(PlaneFormat& plane) {
+  if (!widensOnArrival(plane)) return;
+  plane.encoding = PlaneEncoding::kRgba8;
+  plane.stride_bytes = 0;
+  plane.wire_bytes = decodedBytes(plane);
+}
+
+}  // namespace
 
 std::vector<const PlaneFormat*> wirePlanes(const FrameFormat& format) {
   std::vector<const PlaneFormat*> planes;
@@ -22,63 +33,64 @@ std::vector<const PlaneFormat*> wirePlanes(const FrameFormat& format) {
 }
 
 FrameAssembly::FrameAssembly(FrameFormat format, BytePool& pool, Reservation memory)
-    : format_(std::move(format)), pool_(pool), memory_(std::move(memory)) {
-  for (const PlaneFormat* plane : wirePlanes(format_)) plane_bytes_.push_back(plane->wire_bytes);
-  planes_.reserve(plane_bytes_.size());
+    : format_(std::move(format)),
+      pool_(pool),
+      memory_(std::move(memory)),
+      declared_(wirePlanes(format_)) {
+  planes_.reserve(declared_.size());
 }
 
-absl::StatusOr<std::span<uint8_t>> FrameAssembly::beginChunk(uint32_t plane_index,
-                                                             uint64_t offset_bytes,
-                                                             uint64_t size_bytes) {
+uint64_t FrameAssembly::collectedBytes() const {
+  return arriving_ ? arriving_->collectedBytes() : 0;
+}
+
+absl::Status FrameAssembly::beginChunk(uint32_t plane_index, uint64_t offset_bytes,
+                                       uint64_t size_bytes) {
   if (complete()) {
     return invalidField("chunk.plane_index", strCat("a chunk of plane ", plane_index,
                                                     " came after the last byte of frame ",
                                                     format_.number, "; accepted next is a header"));
   }
-  if (plane_index != current_plane_) {
+  if (plane_index != due_plane_) {
     return invalidField("chunk.plane_index",
                         strCat("a chunk of plane ", plane_index, " came; accepted next is plane ",
-                               current_plane_, " (planes are 0..", plane_bytes_.size() - 1, ")"));
+                               due_plane_, " (planes are 0..", declared_.size() - 1, ")"));
   }
-  const uint64_t declared_bytes = plane_bytes_[current_plane_];
-  if (offset_bytes != collected_bytes_) {
+  const PlaneFormat& plane = *declared_[due_plane_];
+  if (offset_bytes != collectedBytes()) {
     return invalidField("chunk.offset_bytes",
                         strCat("a chunk begins at byte ", offset_bytes,
-                               " of its plane; accepted next is byte ", collected_bytes_));
+                               " of its plane; accepted next is byte ", collectedBytes()));
   }
   if (size_bytes == 0 || size_bytes > kChunkBytesMax) {
     return invalidField("chunk.data", strCat("a chunk has ", size_bytes, " bytes; accepted is 1..",
                                              kChunkBytesMax));
   }
-  if (size_bytes > declared_bytes - collected_bytes_) {
-    return invalidField(
-        "chunk.data",
-        strCat("a chunk has ", size_bytes, " bytes; accepted is up to ",
-               declared_bytes - collected_bytes_, ", the rest of the plane of ", declared_bytes));
+  const uint64_t left_bytes = plane.wire_bytes - collectedBytes();
+  if (size_bytes > left_bytes) {
+    return invalidField("chunk.data",
+                        strCat("a chunk has ", size_bytes, " bytes; accepted is up to ", left_bytes,
+                               ", the rest of the plane of ", plane.wire_bytes));
   }
-  if (!filling_) filling_ = pool_.takeUncleared(declared_bytes);
-  begun_bytes_ = size_bytes;
-  if (const uint64_t end = collected_bytes_ + size_bytes; filling_->size() < end) {
-    filling_->resize(end);
-  }
-  return std::span<uint8_t>(*filling_).subspan(collected_bytes_, size_bytes);
+  if (!arriving_) arriving_.emplace(plane, pool_);
+  awaited_bytes_ = size_bytes;
+  return absl::OkStatus();
 }
 
-void FrameAssembly::endChunk() {
-  VIEWLOOM_CHECK(begun_bytes_ > 0);
-  collected_bytes_ += std::exchange(begun_bytes_, 0);
-  if (collected_bytes_ < plane_bytes_[current_plane_]) return;
-  filling_->resize(std::exchange(collected_bytes_, 0));
-  planes_.push_back(std::exchange(filling_, nullptr));
-  ++current_plane_;
+void FrameAssembly::append(std::span<const uint8_t> bytes) {
+  VIEWLOOM_CHECK(bytes.size() <= awaited_bytes_);
+  arriving_->append(bytes);
+  awaited_bytes_ -= bytes.size();
+  if (collectedBytes() < declared_[due_plane_]->wire_bytes) return;
+  planes_.push_back(arriving_->take());
+  arriving_.reset();
+  ++due_plane_;
 }
 
 absl::Status FrameAssembly::addChunk(uint32_t plane_index, uint64_t offset_bytes,
                                      std::string_view data) {
-  const auto place = beginChunk(plane_index, offset_bytes, data.size());
-  if (!place.ok()) return place.status();
-  std::memcpy(place->data(), data.data(), data.size());
-  endChunk();
+  VIEWLOOM_RETURN_IF_ERROR(beginChunk(plane_index, offset_bytes, data.size()));
+  append({reinterpret_cast<const uint8_t*>(data.data()), data.size()});
   return absl::OkStatus();
 }
 
@@ -86,12 +98,18 @@ absl::Status FrameAssembly::requireComplete() const {
   if (complete()) return absl::OkStatus();
   return invalidField("header",
                       strCat("a header came before the end of frame ", format_.number, ": plane ",
-                             current_plane_, " has ", collected_bytes_, " of ",
-                             plane_bytes_[current_plane_], " bytes; send the rest first"));
+                             due_plane_, " has ", collectedBytes(), " of ",
+                             declared_[due_plane_]->wire_bytes, " bytes; send the rest first"));
 }
 
 CollectedFrame FrameAssembly::take() {
   VIEWLOOM_CHECK(complete());
+  for (SourceFormat& source : format_.sources) {
+    for (LayerFormat& layer : source.layers) {
+      describeAsKept(layer.color);
+      for (PlaneFormat& other : layer.others) describeAsKept(other);
+    }
+  }
   return {.format = std::move(format_), .planes = std::move(planes_), .memory = std::move(memory_)};
 }
 

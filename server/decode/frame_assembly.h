@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,13 +12,15 @@
 #include "admission/memory_budget.h"
 #include "base/byte_pool.h"
 #include "base/status.h"
+#include "decode/arriving_plane.h"
 #include "frame/frame.h"
 
 namespace viewloom {
 
 inline constexpr uint64_t kChunkBytesMax = uint64_t{1} << 20;
 
-// A frame whose bytes have all come, still as on the wire.
+// A frame whose bytes have all come, as on the wire. Planes that became RGBA8 while they came
+// (widensOnArrival() in frame/plane_encoding.h) are described as such.
 struct CollectedFrame {
   FrameFormat format;
   std::vector<SharedBytes> planes;  // in the order of the wire: sources, layers, planes
@@ -36,16 +39,15 @@ class FrameAssembly {
   // comes. `memory`: of all planes, from now on (admission/frame_price.h).
   FrameAssembly(FrameFormat format, BytePool& pool, Reservation memory = {});
 
-  // Where the next piece is to be written, whole, before endChunk(); nothing else may be called in
-  // between. Errors are INVALID_ARGUMENT and name chunk.plane_index, chunk.offset_bytes or
-  // chunk.data; the assembly is of no use afterwards.
-  absl::StatusOr<std::span<uint8_t>> beginChunk(uint32_t plane_index, uint64_t offset_bytes,
-                                                uint64_t size_bytes);
-  void endChunk();
-  // The same of a piece at hand.
+  // Before the next chunk: append() then brings all its bytes, in any pieces, and nothing else may
+  // be called in between. Errors are INVALID_ARGUMENT and name chunk.plane_index,
+  // chunk.offset_bytes or chunk.data; the assembly is of no use afterwards.
+  absl::Status beginChunk(uint32_t plane_index, uint64_t offset_bytes, uint64_t size_bytes);
+  void append(std::span<const uint8_t> bytes);
+  // Both for a chunk at hand.
   absl::Status addChunk(uint32_t plane_index, uint64_t offset_bytes, std::string_view data);
 
-  bool complete() const { return current_plane_ == plane_bytes_.size(); }
+  bool complete() const { return due_plane_ == declared_.size(); }
   // OK, or what is still missing: for a header that comes too early. Names the field "header".
   absl::Status requireComplete() const;
   uint64_t frameNumber() const { return format_.number; }
@@ -54,15 +56,16 @@ class FrameAssembly {
   CollectedFrame take();
 
  private:
+  uint64_t collectedBytes() const;  // of the plane that is due
+
   FrameFormat format_;
   BytePool& pool_;
   Reservation memory_;
-  std::vector<uint64_t> plane_bytes_;  // declared, in wire order
-  std::vector<SharedBytes> planes_;    // whole ones
-  BytePool::Buffer filling_;           // of the current plane; null before its first chunk
-  uint64_t collected_bytes_ = 0;       // of it
-  uint64_t begun_bytes_ = 0;           // between beginChunk and endChunk
-  size_t current_plane_ = 0;
+  std::vector<const PlaneFormat*> declared_;  // in the order of the wire
+  std::vector<SharedBytes> planes_;           // whole ones, until take()
+  size_t due_plane_ = 0;                      // the one behind them
+  std::optional<ArrivingPlane> arriving_;     // that one, from its first chunk on
+  uint64_t awaited_bytes_ = 0;                // of the chunk that has begun
 };
 
 }  // namespace viewloom

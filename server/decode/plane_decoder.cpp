@@ -2,46 +2,17 @@
 #include "decode/plane_decoder.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cstring>
 #include <utility>
 
 #include "base/check.h"
 #include "decode/h264_plane.h"
 #include "decode/predicted_plane.h"
+#include "decode/rgb_to_rgba.h"
 #include "frame/limits.h"
 #include "frame/plane_encoding.h"
 
 namespace viewloom {
 namespace {
-
-static_assert(std::endian::native == std::endian::little);  // how words hold the bytes of pixels
-
-constexpr uint8_t kOpaque = 255;
-constexpr uint32_t kOpaqueWord = uint32_t{kOpaque} << 24;
-
-// Four pixels: 12 bytes become 16. In words, compilers need no shuffles for it: a byte at a time
-// took 1.4 to 1.9 times as long (tests/performance.md).
-void expandFour(const uint8_t* rgb, uint8_t* rgba) {
-  std::array<uint32_t, 3> from{};
-  std::memcpy(from.data(), rgb, sizeof from);
-  const std::array<uint32_t, 4> to{
-      from[0] | kOpaqueWord, from[0] >> 24 | from[1] << 8 | kOpaqueWord,
-      from[1] >> 16 | from[2] << 16 | kOpaqueWord, from[2] >> 8 | kOpaqueWord};
-  std::memcpy(rgba, to.data(), sizeof to);
-}
-
-void expandToRgba(std::span<const uint8_t> rgb, uint8_t* rgba) {
-  size_t from = 0, to = 0;
-  for (; from + 12 <= rgb.size(); from += 12, to += 16) expandFour(&rgb[from], &rgba[to]);
-  for (; from < rgb.size(); from += 3, to += 4) {
-    rgba[to] = rgb[from];
-    rgba[to + 1] = rgb[from + 1];
-    rgba[to + 2] = rgb[from + 2];
-    rgba[to + 3] = kOpaque;
-  }
-}
 
 // `bytes` are the plane's uncompressed bytes, with its stride; `out` becomes the packed plane:
 // strides go, RGB8 becomes RGBA8.
@@ -56,7 +27,7 @@ void packPlane(std::span<const uint8_t> bytes, const PlaneFormat& plane,
     const std::span<const uint8_t> row = bytes.subspan(y * stride_bytes, row_bytes);
     uint8_t* out_row = out.data() + y * out_row_bytes;
     if (plane.encoding == PlaneEncoding::kRgb8) {
-      expandToRgba(row, out_row);
+      widenRgb(row, out_row);
     } else {
       std::copy(row.begin(), row.end(), out_row);
     }

@@ -65,6 +65,18 @@ std::optional<ChunkHead> readHead(CodedInputStream& input, size_t message_bytes)
   }
 }
 
+// Piece by piece, each where gRPC has received it.
+void appendRest(CodedInputStream& input, int left_bytes, FrameAssembly& assembly) {
+  while (left_bytes > 0) {
+    const void* piece = nullptr;
+    int piece_bytes = 0;
+    VIEWLOOM_CHECK(input.GetDirectBufferPointer(&piece, &piece_bytes));
+    VIEWLOOM_CHECK(piece_bytes <= left_bytes && input.Skip(piece_bytes));
+    assembly.append({static_cast<const uint8_t*>(piece), static_cast<size_t>(piece_bytes)});
+    left_bytes -= piece_bytes;
+  }
+}
+
 }  // namespace
 
 std::optional<absl::StatusOr<uint64_t>> readChunk(grpc::ByteBuffer& bytes,
@@ -74,11 +86,10 @@ std::optional<absl::StatusOr<uint64_t>> readChunk(grpc::ByteBuffer& bytes,
   CodedInputStream input(&reader);
   const std::optional<ChunkHead> head = readHead(input, bytes.Length());
   if (!head) return std::nullopt;
-  const auto place = assembly.beginChunk(head->plane_index, head->offset_bytes, head->data_bytes);
-  if (!place.ok()) return place.status();
-  VIEWLOOM_CHECK(input.ReadRaw(place->data(), static_cast<int>(place->size())));
-  assembly.endChunk();
-  return place->size();
+  VIEWLOOM_RETURN_IF_ERROR(
+      assembly.beginChunk(head->plane_index, head->offset_bytes, head->data_bytes));
+  appendRest(input, head->data_bytes, assembly);
+  return uint64_t{head->data_bytes};
 }
 
 }  // namespace viewloom

@@ -119,4 +119,9 @@ bool isHeldAsSent(const PlaneFormat& plane) {
          uncompressedBytes(plane) == decodedBytes(plane);
 }
 
+bool widensOnArrival(const PlaneFormat& plane) {
+  return plane.encoding == PlaneEncoding::kRgb8 && plane.compression == PlaneCompression::kNone &&
+         wireRowBytes(plane) == uint64_t{plane.size_px.width} * wirePixelBytes(plane.encoding);
+}
+
 }  // namespace viewloom

@@ -26,5 +26,7 @@ uint32_t wirePixelBytes(PlaneEncoding encoding);
 uint64_t inflatedBytesMax(const PlaneFormat& plane);
 // Whether the uncompressed bytes of the plane are held by a Frame without a change.
 bool isHeldAsSent(const PlaneFormat& plane);
+// Whether the plane becomes RGBA8 while its bytes come: RGB8 with nothing between its pixels.
+bool widensOnArrival(const PlaneFormat& plane);
 
 }  // namespace viewloom

@@ -39,11 +39,20 @@ TEST(FramePrice, countsPlanesThatAreHeldAsTheyCameOnce) {
   EXPECT_EQ(price.decoded_bytes, 8 * kArea_px);
 }
 
+TEST(FramePrice, countsPlanesThatWidenAsTheyComeOnce) {
+  const FramePrice price = framePrice(
+      frameOf({.color = plane(PlaneKind::kColor, PlaneEncoding::kRgb8), .depth = kDepth}));
+  EXPECT_EQ(price.receiving_bytes, 8 * kArea_px);
+  EXPECT_EQ(price.decoded_bytes, 8 * kArea_px);
+}
+
 TEST(FramePrice, countsWireAndResultOfWhatIsUnpacked) {
-  const FramePrice price =
-      framePrice(frameOf({.color = plane(PlaneKind::kColor, PlaneEncoding::kRgb8),
-                          .depth = packed(kDepth, PlaneCompression::kZstd, 100)}));
-  EXPECT_EQ(price.receiving_bytes, 3 * kArea_px + 4 * kArea_px + 100 + 4 * kArea_px);
+  PlaneFormat with_gaps = plane(PlaneKind::kColor, PlaneEncoding::kRgb8);
+  with_gaps.stride_bytes = 4 * kSize_px.width;
+  with_gaps.wire_bytes = 4 * kArea_px;
+  const FramePrice price = framePrice(
+      frameOf({.color = with_gaps, .depth = packed(kDepth, PlaneCompression::kZstd, 100)}));
+  EXPECT_EQ(price.receiving_bytes, 4 * kArea_px + 4 * kArea_px + 100 + 4 * kArea_px);
   EXPECT_EQ(price.decoded_bytes, 8 * kArea_px);
 }
 

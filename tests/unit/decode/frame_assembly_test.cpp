@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 namespace viewloom::frame_assembly_test {
 namespace {
@@ -66,6 +67,14 @@ TEST_F(FrameAssemblyTest, refusesTheByteBeyondThePlane) {
   EXPECT_EQ(fieldAfter(0, 5, "fg"), "chunk.data");
 }
 
+TEST_F(FrameAssemblyTest, isCompleteAlsoOnceItsFrameIsTaken) {
+  EXPECT_EQ(fieldAfter(0, 0, "abcdef"), "");
+  EXPECT_EQ(fieldAfter(1, 0, "abcd"), "");
+  assembly_.take();
+  EXPECT_EQ(assembly_.requireComplete(), absl::OkStatus());
+  EXPECT_EQ(fieldAfter(0, 0, "a"), "chunk.plane_index");
+}
+
 TEST_F(FrameAssemblyTest, refusesAnyPieceAfterTheLast) {
   EXPECT_EQ(fieldAfter(0, 0, "abcdef"), "");
   EXPECT_EQ(fieldAfter(1, 0, "abcd"), "");
@@ -86,6 +95,55 @@ TEST_F(FrameAssemblyTest, ownsNothingOfTheFrameBefore) {
   EXPECT_TRUE(assembly_.addChunk(1, 0, "ghij").ok());
   const CollectedFrame frame = assembly_.take();
   EXPECT_EQ(std::string(frame.planes[0]->begin(), frame.planes[0]->end()), "abcdef");
+}
+
+// Publishers cut chunks, and the network cuts pieces.
+TEST_F(FrameAssemblyTest, widensRgbWhereverItIsCut) {
+  FrameFormat format = twoPlanes();
+  PlaneFormat& color = format.sources[0].layers[0].color;
+  color.encoding = PlaneEncoding::kRgb8;
+  color.size_px = {3, 2};
+  color.wire_bytes = 18;
+  const std::string wire = "abcdefghijklmnopqr";
+  for (size_t chunk_bytes = 1; chunk_bytes <= wire.size(); ++chunk_bytes) {
+    for (size_t piece_bytes = 1; piece_bytes <= chunk_bytes; ++piece_bytes) {
+      FrameAssembly assembly(format, pool_);
+      EXPECT_TRUE(assembly.addChunk(0, 0, "abcdef").ok());
+      for (size_t at = 0; at < wire.size(); at += chunk_bytes) {
+        std::string chunk = wire.substr(at, chunk_bytes);
+        ASSERT_TRUE(assembly.beginChunk(1, at, chunk.size()).ok());
+        for (; !chunk.empty(); chunk.erase(0, piece_bytes)) {
+          const std::string piece = chunk.substr(0, piece_bytes);
+          assembly.append(std::vector<uint8_t>(piece.begin(), piece.end()));
+        }
+      }
+      const CollectedFrame frame = assembly.take();
+      EXPECT_EQ(std::string(frame.planes[1]->begin(), frame.planes[1]->end()),
+                "abc\xff"
+                "def\xff"
+                "ghi\xff"
+                "jkl\xff"
+                "mno\xff"
+                "pqr\xff");
+      const PlaneFormat& kept = frame.format.sources[0].layers[0].color;
+      EXPECT_EQ(kept.encoding, PlaneEncoding::kRgba8);
+      EXPECT_EQ(kept.wire_bytes, 24U);
+    }
+  }
+}
+
+TEST_F(FrameAssemblyTest, keepsRgbWithGapsAsItComes) {
+  FrameFormat format = twoPlanes();
+  PlaneFormat& color = format.sources[0].layers[0].color;
+  color.encoding = PlaneEncoding::kRgb8;
+  color.size_px = {1, 1};
+  color.stride_bytes = 4;
+  FrameAssembly assembly(format, pool_);
+  EXPECT_TRUE(assembly.addChunk(0, 0, "abcdef").ok());
+  EXPECT_TRUE(assembly.addChunk(1, 0, "ghij").ok());
+  const CollectedFrame frame = assembly.take();
+  EXPECT_EQ(std::string(frame.planes[1]->begin(), frame.planes[1]->end()), "ghij");
+  EXPECT_EQ(frame.format.sources[0].layers[0].color.encoding, PlaneEncoding::kRgb8);
 }
 
 TEST_F(FrameAssemblyTest, tellsWhatIsMissing) {
