@@ -55,7 +55,9 @@ class DeviceRoom final : public EngineRoom {
   void noteDecoded(const FrameOrigin& origin, int64_t cpu_ns) override {
     pipeline_.noteDecoded(origin, cpu_ns);
   }
-  void onWanted(std::function<void()> then) override { pipeline_.onWanted(std::move(then)); }
+  void onWanted(std::function<void(const std::string&)> then) override {
+    pipeline_.onWanted(std::move(then));
+  }
   void noteLost(const std::string& stream) override { pipeline_.noteLost(stream); }
   void forgetStream(const std::string& stream) override { pipeline_.forgetStream(stream); }
   void serveDisplays(const std::string& stream) override { pipeline_.serveDisplays(stream); }

@@ -154,7 +154,7 @@ void Service::Parts::connect() {
   broadcaster.onEyesServed([this](const std::string& stream) {
     if (RpcServer* const server = open_rpc) server->demandChanged(stream);
   });
-  engine_room->onWanted([this] { intake.resume(); });
+  engine_room->onWanted([this](const std::string& stream) { intake.resume(stream); });
   directory.onRoomNeeded([this](const std::string& stream) {
     // A frame that comes later would open the stream again, and nobody would forget it.
     if (broadcaster.subscriberCount(stream) > 0 || !intake.forget(stream)) return false;

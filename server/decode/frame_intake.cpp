@@ -23,6 +23,7 @@
 #include "base/thread_time.h"
 #include "decode/frame_decoder.h"
 #include "decode/open_frame.h"
+#include "decode/stream_queue.h"
 
 namespace viewloom {
 namespace {
@@ -59,7 +60,7 @@ struct FrameIntake::State {
   // A stream is here while a frame of it waits or is open. It is in the queue or has an open frame,
   // never both: that keeps its frames in order.
   std::unordered_map<std::string, LatestMailbox<WaitingFrame>> streams;
-  std::deque<FrameOrigin> queue;
+  StreamQueue queue;
   std::deque<std::shared_ptr<OpenFrame>> open_frames;  // those with a plane nobody has claimed
   size_t large_count = 0;      // planes of large frames in the hands of threads
   size_t large_count_max = 1;  // threads that may have them
@@ -137,28 +138,10 @@ struct FrameIntake::State {
     return nullptr;
   }
 
-  size_t dropFromQueue(const std::string& stream) {
-    return std::erase_if(queue, [&](const FrameOrigin& other) { return other.stream == stream; });
-  }
-
-  // The wanted stream whose turn it is leaves the queue; none = no frame is wanted.
-  std::optional<FrameOrigin> takeNextWanted() {
-    std::vector<FrameOrigin> left(queue.begin(), queue.end());
-    while (!left.empty()) {
-      const auto next = left.begin() + std::ptrdiff_t(sink.nextToDecode(left));
-      if (closed || sink.wantsFrame(next->stream)) {
-        FrameOrigin taken = std::move(*next);
-        dropFromQueue(taken.stream);
-        return taken;
-      }
-      left.erase(next);
-    }
-    return std::nullopt;
-  }
-
   // False: no stream has a frame that is wanted.
   bool openNextFrame(std::unique_lock<std::mutex>& lock) {
-    const std::optional<FrameOrigin> next_wanted = takeNextWanted();
+    const std::optional<FrameOrigin> next_wanted =
+        closed ? queue.takeNext(sink) : queue.takeWanted(sink);
     if (!next_wanted) return false;
     WaitingFrame waiting = *streams.at(next_wanted->stream).take();
     try {
@@ -181,7 +164,7 @@ struct FrameIntake::State {
     if (streams.at(origin.stream).empty()) {
       streams.erase(origin.stream);
     } else {
-      queue.push_back(origin);  // behind the others
+      queue.push(origin);  // behind the others
       work.notify_one();
     }
   }
@@ -254,7 +237,7 @@ void FrameIntake::offer(const std::string& stream, CollectedFrame frame, FrameTi
     return;
   }
   const auto [entry, idle] = state_->streams.try_emplace(stream);
-  if (idle) state_->queue.push_back({stream, frame.session, Payer(frame.publisher)});
+  if (idle) state_->queue.push({stream, frame.session, Payer(frame.publisher)});
   const std::optional<WaitingFrame> replaced =
       entry->second.push({std::move(frame), times, std::move(report), std::move(on_taken)});
   state_->work.notify_one();
@@ -267,16 +250,16 @@ void FrameIntake::offer(const std::string& stream, CollectedFrame frame, FrameTi
   }
 }
 
-void FrameIntake::resume() {
+void FrameIntake::resume(const std::string& stream) {
   std::lock_guard lock(state_->mutex);
-  state_->work.notify_all();
+  if (state_->queue.allow(stream)) state_->work.notify_one();
 }
 
 bool FrameIntake::forget(const std::string& stream) {
   std::unique_lock lock(state_->mutex);
   const auto found = state_->streams.find(stream);
   if (found == state_->streams.end()) return true;
-  if (state_->dropFromQueue(stream) == 0) return false;  // a frame of it is open
+  if (!state_->queue.drop(stream)) return false;  // a frame of it is open
   const std::optional<WaitingFrame> dropped = found->second.take();
   state_->streams.erase(found);
   lock.unlock();

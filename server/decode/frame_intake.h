@@ -41,8 +41,9 @@ class FrameIntake {
   void offer(
       const std::string& stream, CollectedFrame frame, FrameTimes times, ReportFrame report,
       std::function<void()> on_taken = [] {});
-  // The sink may want frames that it did not want.
-  void resume();
+  // The sink may want the frame of this stream that it did not want. Until then it is not asked
+  // again about it, however many others wait.
+  void resume(const std::string& stream);
   // The stream is to be forgotten: what waits of it is reported kRefused, and comes back to no
   // sink. False, and nothing is changed, while a frame of it is decoded or handed over.
   bool forget(const std::string& stream);

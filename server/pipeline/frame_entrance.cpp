@@ -55,7 +55,7 @@ bool FrameEntrance::askNewer(const std::string& name, const std::string& picture
 bool FrameEntrance::letIn(PipelineStream& stream) {
   const FrameDoor::Opened opened = stream.door.open();
   if (opened == FrameDoor::Opened::kNow) {
-    on_wanted_();
+    on_wanted_(stream.name);
     if (!stream.inbox.empty()) events_.ring_builds();  // it is decoded already
   }
   return opened != FrameDoor::Opened::kNobody;
@@ -71,13 +71,13 @@ void FrameEntrance::noteBegun(const AtlasJob& job) {
 
 void FrameEntrance::goOn(PipelineStream& stream) {
   if (!stream.inbox.empty() && stream.door.enter()) queuePictures(stream);  // it came meanwhile
-  on_wanted_();
+  on_wanted_(stream.name);
   beginAsked(stream.name);
 }
 
 void FrameEntrance::forget(const std::string& stream) {
   streams_.forget(stream);
-  on_wanted_();
+  on_wanted_(stream);
   beginAsked(stream);
 }
 

@@ -39,7 +39,7 @@ class FrameEntrance {
 
   // See FrameSink.
   bool wantsFrame(const std::string& stream);
-  void onWanted(std::function<void()> then) { on_wanted_ = std::move(then); }
+  void onWanted(std::function<void(const std::string&)> then) { on_wanted_ = std::move(then); }
   void noteLost(const std::string& stream);
   // A decoded frame is in the inbox of the stream.
   void noteOffered(const PipelineStreamPtr& stream);
@@ -68,7 +68,7 @@ class FrameEntrance {
   const Broadcaster& broadcaster_;
   const Clock& clock_;
   const Events events_;
-  std::function<void()> on_wanted_ = [] {};
+  std::function<void(const std::string& stream)> on_wanted_ = [](const std::string&) {};
   AskedPictures asked_;
   std::atomic<bool> is_stopped_ = false;
 };

@@ -240,7 +240,7 @@ bool Pipeline::wantsFrame(const std::string& stream) {
   return loops_->entrance.wantsFrame(stream);
 }
 
-void Pipeline::onWanted(std::function<void()> then) {
+void Pipeline::onWanted(std::function<void(const std::string&)> then) {
   loops_->entrance.onWanted(std::move(then));
 }
 

@@ -43,7 +43,7 @@ class Pipeline final : public AtlasMaker {
   void noteDecoded(const FrameOrigin& origin, int64_t cpu_ns) override {
     payForDecoding(shares(), origin, cpu_ns);
   }
-  void onWanted(std::function<void()> then) override;
+  void onWanted(std::function<void(const std::string&)> then) override;
   void noteLost(const std::string& stream) override;
   void forgetStream(const std::string& stream) override;
   // See Engines::preparedBytes.

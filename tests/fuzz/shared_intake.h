@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -34,11 +35,13 @@ class SharedIntake final : public FrameSink {
     holds_ = true;
   }
   void letGo() {
+    std::set<std::string> held;
     {
       std::lock_guard lock(mutex_);
       holds_ = false;
+      held.swap(held_);
     }
-    intake_.resume();
+    for (const std::string& stream : held) intake_.resume(stream);
   }
   // Waits until each of the frames that were ever offered was handled, once. At once while frames
   // have to wait.
@@ -47,8 +50,9 @@ class SharedIntake final : public FrameSink {
     handled_.wait(lock, [&] { return holds_ || handled_count_ == offered_count; });
   }
 
-  bool wantsFrame(const std::string&) override {
+  bool wantsFrame(const std::string& stream) override {
     std::lock_guard lock(mutex_);
+    if (holds_) held_.insert(stream);
     return !holds_;
   }
   void offerFrame(const FrameOrigin& origin, FramePtr frame, ReportFrame report) override {
@@ -75,7 +79,8 @@ class SharedIntake final : public FrameSink {
   uint64_t handled_count_ = 0;  // reported by the sink, refused or replaced
   FrameSink* sink_ = nullptr;
   bool holds_ = false;
-  ManualClock clock_;  // stands still
+  std::set<std::string> held_;  // streams of which a frame waits
+  ManualClock clock_;           // stands still
   BytePool pool_{8};
   // Last: its threads use what is above.
   FrameIntake intake_{*this, clock_, pool_, {.on_replaced = [this] { noteHandled(); }}};

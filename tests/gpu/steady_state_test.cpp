@@ -152,7 +152,7 @@ class SteadyState : public GpuTest {
     pipeline_ = std::make_unique<Pipeline>(links, PipelineOptions{});
     broadcaster_.onDemandChange([this](const std::string& s) { pipeline_->serveDisplays(s); });
     intake_ = std::make_unique<FrameIntake>(*pipeline_, clock_, pool_, FrameIntakeOptions{});
-    pipeline_->onWanted([this] { intake_->resume(); });
+    pipeline_->onWanted([this](const std::string& s) { intake_->resume(s); });
     claim_ = *directory_.claim("s", "", [] {});
   }
 

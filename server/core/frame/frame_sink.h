@@ -62,9 +62,9 @@ class FrameSink {
   virtual size_t nextToDecode(const std::vector<FrameOrigin>&) { return 0; }
   // The decoding of a frame took so much CPU time, whether it succeeds or not.
   virtual void noteDecoded(const FrameOrigin&, int64_t) {}
-  // `then` is called on any thread when waiting frames may be wanted now. Set once, before frames
-  // come.
-  virtual void onWanted(std::function<void()>) {}
+  // `then` is called on any thread when the waiting frame of a stream may be wanted now, which it
+  // was not before. Set once, before frames come.
+  virtual void onWanted(std::function<void(const std::string& stream)>) {}
   // A wanted frame of the stream does not decode, and is not offered.
   virtual void noteLost(const std::string&) {}
   // Drops the structure of a stream whose name is free and that nobody watches.

@@ -5,9 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <map>
-#include <new>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -59,70 +57,6 @@ TEST(FrameIntake, goesOnAfterAFrameThatNobodyCouldTake) {
   }
   intake.close();
   EXPECT_EQ(sink.offered_count, 2);
-}
-
-// Wants no frame before it is told to.
-class ShutSink : public HeldSink {
- public:
-  bool wantsFrame(const std::string&) override { return is_open; }
-  std::atomic<bool> is_open = false;
-};
-
-TEST(FrameIntake, dropsTheFrameThatWaitsOfAStreamThatIsForgotten) {
-  ShutSink sink;
-  Reports reports;
-  ManualClock clock;
-  BytePool pool(16);
-  std::atomic<int> taken_count = 0;
-  FrameIntake intake(sink, clock, pool, {.thread_count = 1});
-  intake.offer("a", onePixel(1), {}, reports.into("a"), [&] { ++taken_count; });
-  EXPECT_TRUE(intake.forget("a"));
-  EXPECT_EQ(taken_count, 1);
-  sink.is_open = true;
-  intake.offer("b", onePixel(2), {}, reports.into("b"));
-  intake.close();
-  EXPECT_EQ(reports.outcomes("a")[1], FrameOutcome::kRefused);
-  EXPECT_TRUE(sink.offered("a").empty());
-  EXPECT_EQ(sink.offered("b"), std::vector<uint64_t>{2});
-  EXPECT_TRUE(intake.forget("never seen"));
-}
-
-// Has no memory to know whether it wants a frame.
-class ScarceSink : public HeldSink {
- public:
-  bool wantsFrame(const std::string&) override {
-    ++asked_count;
-    if (is_scarce) throw std::bad_alloc();
-    return true;
-  }
-  std::atomic<bool> is_scarce = true;
-  std::atomic<int> asked_count = 0;
-};
-
-TEST(FrameIntake, asksNowAndThenWhereThereIsNoMemory) {
-  ScarceSink sink;
-  Reports reports;
-  ManualClock clock;
-  BytePool pool(16);
-  FrameIntake intake(sink, clock, pool, {.thread_count = 1});
-  intake.offer("a", onePixel(1), {}, reports.into("a"));
-  std::this_thread::sleep_for(std::chrono::milliseconds(300));
-  EXPECT_LE(sink.asked_count, 10);
-  sink.is_scarce = false;
-  while (sink.offered("a").empty()) std::this_thread::yield();
-  intake.close();
-}
-
-TEST(FrameIntake, isClosedWhereThereIsNoMemory) {
-  ScarceSink sink;
-  Reports reports;
-  ManualClock clock;
-  BytePool pool(16);
-  FrameIntake intake(sink, clock, pool, {.thread_count = 1});
-  intake.offer("a", onePixel(1), {}, reports.into("a"));
-  while (sink.asked_count == 0) std::this_thread::yield();
-  intake.close();
-  EXPECT_EQ(sink.offered("a"), std::vector<uint64_t>{1});
 }
 
 TEST_F(FrameIntakeTest, forgetsNoStreamOfWhichAFrameIsHandedOver) {

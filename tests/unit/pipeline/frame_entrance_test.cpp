@@ -50,7 +50,7 @@ class FrameEntranceTest : public testing::Test {
   };
 
   FrameEntranceTest() {
-    entrance_.onWanted([this] { is_intake_rung_ = true; });
+    entrance_.onWanted([this](const std::string& stream) { asks_for_.insert(stream); });
   }
 
   Stream& watch(const std::string& name, uint32_t side_px = 64) {
@@ -66,7 +66,7 @@ class FrameEntranceTest : public testing::Test {
     while (clock_.nowNs() < end_ns) {
       send();
       intake();
-      if (!build() && !trace() && !is_intake_rung_) clock_.advance(kDecode_ns);
+      if (!build() && !trace() && asks_for_.empty()) clock_.advance(kDecode_ns);
     }
   }
   // Frames that were built and that nobody has seen, but for those that still may be seen.
@@ -102,13 +102,13 @@ class FrameEntranceTest : public testing::Test {
       stream.received_ns = clock_.nowNs();
       stream.due_ns = clock_.nowNs() + stream.interval_ns;
       ++stream.sent_count;
-      is_intake_rung_ = true;
+      asks_for_.insert(name);
     }
   }
 
   void intake() {
-    if (!std::exchange(is_intake_rung_, false)) return;
-    for (auto& [name, stream] : streams_by_name_) {
+    for (const std::string& name : std::exchange(asks_for_, {})) {
+      Stream& stream = streams_by_name_.at(name);
       if (!stream.waits || !entrance_.wantsFrame(name)) continue;
       stream.waits = false;
       ++decoded_count_;
@@ -199,7 +199,7 @@ class FrameEntranceTest : public testing::Test {
        .takes_unasked = [this](const PipelineStream& stream) { return takesUnasked(stream); }}};
   std::map<std::string, Stream> streams_by_name_;
   std::vector<std::unique_ptr<Broadcaster::Subscription>> viewers_;
-  bool is_intake_rung_ = false;
+  std::set<std::string> asks_for_;  // streams whose waiting frame may be wanted
   uint64_t serial_ = 0;
   std::map<uint64_t, int64_t> received_ns_;  // by serial
   std::vector<uint64_t> built_;              // serials
