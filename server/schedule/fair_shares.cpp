@@ -22,13 +22,13 @@ auto* findIn(Map& map, const Key& key) {
   return found == map.end() ? nullptr : &found->second;
 }
 
-// Keeps the candidates of which `valueOf` is the least.
-template <typename Candidates, typename ValueOf>
-void keepLeast(Candidates& candidates, const ValueOf& valueOf) {
-  const auto least = std::ranges::min_element(candidates, {}, valueOf);
-  if (least == candidates.end()) return;
-  const auto value = valueOf(*least);
-  std::erase_if(candidates, [&](const auto& candidate) { return valueOf(candidate) != value; });
+// Keeps the candidates that start no more than `slack_ns` after the first one.
+template <typename Candidates>
+void keepEarliest(Candidates& candidates, int64_t slack_ns) {
+  const auto startOf = [](const auto& candidate) { return candidate.start_ns; };
+  const int64_t least_ns = startOf(*std::ranges::min_element(candidates, {}, startOf));
+  std::erase_if(candidates,
+                [&](const auto& candidate) { return candidate.start_ns > least_ns + slack_ns; });
 }
 
 template <typename Candidates>
@@ -131,10 +131,13 @@ void FairShares::keepTurnOfEyes(const Account* account, std::vector<Candidate>& 
 
 // If two streams have equal shares, the one goes first whose deadline is sooner.
 void FairShares::keepOneStream(const Account* account, std::vector<Candidate>& candidates) {
+  if (candidates.size() == 1) return;
   if (account != nullptr) {
-    keepLeast(candidates, [&](const Candidate& candidate) {
-      return account->level.startOf(findIn(account->streams, candidate.claim->stream));
-    });
+    for (Candidate& candidate : candidates) {
+      candidate.start_ns =
+          account->level.startOf(findIn(account->streams, candidate.claim->stream));
+    }
+    keepEarliest(candidates, 0);
   }
   const std::string& stream = soonest(candidates).claim->stream;
   std::erase_if(candidates,
@@ -142,16 +145,13 @@ void FairShares::keepOneStream(const Account* account, std::vector<Candidate>& c
 }
 
 void FairShares::keepLeastDisplays(const Account* account, std::vector<Candidate>& candidates) {
-  if (account == nullptr) return;
-  const auto startOf = [&](const Candidate& candidate) {
-    const Stream* const stream = findIn(account->streams, candidate.claim->stream);
-    if (stream == nullptr) return int64_t{0};
-    return stream->level.placeOf(findIn(stream->displays, candidate.claim->display));
-  };
-  const int64_t least_ns = startOf(*std::ranges::min_element(candidates, {}, startOf));
-  std::erase_if(candidates, [&](const Candidate& candidate) {
-    return startOf(candidate) > least_ns + kInOrder_ns;
-  });
+  if (account == nullptr || candidates.size() == 1) return;
+  const Stream* const stream = findIn(account->streams, candidates.front().claim->stream);
+  if (stream == nullptr) return;
+  for (Candidate& candidate : candidates) {
+    candidate.start_ns = stream->level.placeOf(findIn(stream->displays, candidate.claim->display));
+  }
+  keepEarliest(candidates, kInOrder_ns);
 }
 
 FairShares::Account& FairShares::accountOf(const Payer& payer) {

@@ -14,6 +14,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -106,12 +107,12 @@ class FairShares {
   };
   struct Stream : Node {
     Level level;
-    std::map<std::string, Node> displays;
+    std::unordered_map<std::string, Node> displays;
   };
   struct Account : Node {
     EyesTurn eyes;
     Level level;
-    std::map<std::string, Stream> streams;
+    std::unordered_map<std::string, Stream> streams;
   };
   // A claim by one of its payers.
   struct Candidate {
@@ -119,6 +120,7 @@ class FairShares {
     const Claim* claim = nullptr;
     const Payer* payer = nullptr;
     Place place;
+    int64_t start_ns = 0;  // of its stream among those of the payer, then of its display
   };
 
   const Account* find(const Payer& payer) const;

@@ -14,15 +14,18 @@ bool hasMoved(const AtlasJob& job, const std::optional<ShownInstant>& shown) {
 
 }  // namespace
 
+void ServedDisplays::forgetOthers(const std::vector<ActiveDisplayPtr>& displays) {
+  std::erase_if(served_, [&](const auto& entry) {
+    return std::ranges::find(displays, entry.first, &ActiveDisplay::id) == displays.end();
+  });
+}
+
 UnservedDisplays ServedDisplays::find(const AtlasJob& job) {
   std::lock_guard lock(mutex_);
   // Under the lock: what an older list lacks may have been served since.
   const std::vector<ActiveDisplayPtr> all = broadcaster_.displays("");
   const uint64_t serial = job.structure->serial;
-  std::erase_if(served_, [&](const auto& entry) {
-    return std::none_of(all.begin(), all.end(),
-                        [&](const auto& display) { return display->id == entry.first; });
-  });
+  if (served_.size() > all.size()) forgetOthers(all);
   UnservedDisplays unserved;
   for (const ActiveDisplayPtr& display : all) {
     if (display->picture_key != job.picture_key) continue;

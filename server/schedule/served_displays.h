@@ -39,6 +39,9 @@ class ServedDisplays {
     std::optional<ShownInstant> shown;  // at a tick
   };
 
+  // Goes over all of these for each that was served: for when some have gone.
+  void forgetOthers(const std::vector<ActiveDisplayPtr>& displays);
+
   const Broadcaster& broadcaster_;
   std::mutex mutex_;
   std::map<uint64_t, Served> served_;  // by display, as last begun; guarded by mutex_
