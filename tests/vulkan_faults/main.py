@@ -11,6 +11,7 @@ ended as it should not.
 import argparse
 import collections
 import dataclasses
+import itertools
 import random
 import sys
 
@@ -138,8 +139,10 @@ def run(words):
             faults.plant(BY_NAME[name], fault)
     elif words.sites:
         chooser = random.Random(words.seed)
-        for stage in plan.random_stages(words.seed, words.sites):
-            faults.plant(stage, plan.random_fault(chooser, faults.record(stage).counts))
+        drawn = ((stage, plan.random_fault(chooser, faults.record(stage).counts))
+                 for stage in plan.random_stages(words.seed))
+        for stage, fault in itertools.islice((one for one in drawn if one[1]), words.sites):
+            faults.plant(stage, fault)
     else:
         for stage in stages:
             for fault in plan.faults_in(faults.record(stage).counts):

@@ -39,15 +39,20 @@ def faults_in(counts):
             yield Fault(name, count // 2 + 1, result)
 
 
-def random_stages(seed, count):
-    """A stage for each site; the call itself is drawn when the calls of the stage are known."""
+def random_stages(seed):
+    """One stage after the other, without an end; the call itself is drawn when the calls of the
+    stage are known."""
     chooser = random.Random(seed)
-    return [chooser.choice(STAGES) for _ in range(count)]
+    while True:
+        yield chooser.choice(STAGES)
 
 
 def random_fault(chooser, counts):
-    """Any call of those that can fail, by any result that it may have."""
+    """Any call of those that can fail, by any result that it may have; None if there is none, as
+    where views are swept."""
     calls = [(name, number + 1) for name, count in fallible(counts).items()
              for number in range(count)]
+    if not calls:
+        return None
     name, number = chooser.choice(calls)
     return Fault(name, number, chooser.choice(faults_of(name)), chooser.random() < 0.8)

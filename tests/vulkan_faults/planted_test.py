@@ -3,6 +3,8 @@
 servers whose Vulkan lies. Arguments: viewloomd, the folder of the layer's manifest. PYTHONPATH has
 the Python client."""
 
+import itertools
+import random
 import sys
 import unittest
 
@@ -80,7 +82,9 @@ class Planned(unittest.TestCase):
         self.assertEqual({fault.function for fault in planned},
                          {"vkQueueSubmit2", "vkCreateBuffer"})
         self.assertIn(Fault("vkQueueSubmit2", 5, registry.LOST), planned)
-        self.assertEqual(plan.random_stages(7, 5), plan.random_stages(7, 5))
+        first, again = (list(itertools.islice(plan.random_stages(7), 5)) for _ in range(2))
+        self.assertEqual(first, again)
+        self.assertIsNone(plan.random_fault(random.Random(7), {"vkDestroyBuffer": 3}))
 
 
 class Lying(unittest.TestCase):
