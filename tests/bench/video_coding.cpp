@@ -69,6 +69,12 @@ AtlasBand bandOf(const EncodedBand& band, v1::BandEncoding encoding) {
 
 }  // namespace
 
+std::unique_ptr<OpenH264Decoder> bareDecoder() {
+  absl::StatusOr<std::unique_ptr<OpenH264Decoder>> made = OpenH264Decoder::make();
+  if (!made.ok()) throw std::runtime_error(std::string(made.status().message()));
+  return *std::move(made);
+}
+
 VideoCoding::VideoCoding(const AtlasLayout& layout, std::vector<uint32_t> rgba)
     : quilt_(layout),
       rgba_(std::move(rgba)),
@@ -105,6 +111,17 @@ void VideoCoding::finish(const Atlas& atlas, ColorDecoder& decoder, Coded& coded
   coded.psnr_db = 10 * std::log10(255.0 * 255.0 * double(rgba_.size()) / sum);
 }
 
+void VideoCoding::measureLibrary(const Atlas& atlas, OpenH264Decoder& library, Coded& coded) const {
+  const SizePx size_px = stacked_.layout.imageSize();
+  const double begun_ms = usedMs();
+  for (const AtlasBand& band : atlas.bands) {
+    const std::vector<uint8_t> unit(band.bytes.begin(), band.bytes.end());
+    const auto picture = library.decode(unit, size_px);
+    if (!picture.ok()) throw std::runtime_error(std::string(picture.status().message()));
+  }
+  coded.library_ms = usedMs() - begun_ms;
+}
+
 Coded VideoCoding::asJpeg(uint32_t quality) {
   const EncodingSpec encoding = {.jpeg_quality = quality};
   const BandPixels pixels = planarPixels(quilt_planes_, quilt_.size_px, ColorForm::kYcbcr420);
@@ -131,6 +148,7 @@ Coded VideoCoding::asVideo(uint32_t qp) {
   const Atlas atlas = codePictures(encoding, {.qp = qp}, PictureOrder::kForward, coded);
   ColorDecoder decoder;
   finish(atlas, decoder, coded);
+  measureLibrary(atlas, *bareDecoder(), coded);
   return coded;
 }
 
@@ -146,6 +164,7 @@ Coded VideoCoding::asChained(uint32_t qp, ChainEnds& chain) {
   atlas.header.set_is_backward(order == PictureOrder::kBackward);
   atlas.header.set_reference_sequence(before);
   finish(atlas, chain.decoder, coded);
+  measureLibrary(atlas, *chain.library, coded);
   return coded;
 }
 

@@ -13,6 +13,7 @@
 #include "lib/atlas.h"
 #include "lib/color_decoder.h"
 #include "pipeline/video_atlas.h"
+#include "video/openh264_decoder.h"
 
 namespace viewloom::bench {
 
@@ -22,12 +23,18 @@ struct Coded {
   double psnr_db = 0;    // of luma
   double encode_ms = 0;  // CPU time of all threads
   double decode_ms = 0;  // the same, until RGB of the whole atlas
+  // Of video: CPU time of OpenH264 alone, without colours. No decoder with it takes less.
+  double library_ms = 0;
 };
+
+// Throws std::runtime_error where there is no memory for one.
+std::unique_ptr<OpenH264Decoder> bareDecoder();
 
 // Server and client of chained video, between two atlases. Thread-safety: none.
 struct ChainEnds {
   std::shared_ptr<VideoChain> coder = std::make_shared<VideoChain>();
   ColorDecoder decoder;
+  std::unique_ptr<OpenH264Decoder> library = bareDecoder();
   uint64_t sequence = 0;  // of the last atlas; 0 = none
 };
 
@@ -55,6 +62,7 @@ class VideoCoding {
                      Coded& coded);
   Atlas emptyAtlas(const AtlasLayout& layout, const EncodingSpec& encoding) const;
   void finish(const Atlas& atlas, ColorDecoder& decoder, Coded& coded) const;
+  void measureLibrary(const Atlas& atlas, OpenH264Decoder& library, Coded& coded) const;
 
   AtlasLayout quilt_;
   std::vector<uint32_t> rgba_;         // of the quilt
