@@ -32,7 +32,7 @@ READERS = re.compile(r"""
   | /server/core/messages/wire_message\.cpp
   | /server/core/video/(annex_b|h264_parameters|openh264_decoder)\.cpp
   | /server/config/(toml_file|settings)\.cpp
-  | /server/decode/(frame_assembly|frame_decoder|plane_decoder)\.cpp
+  | /server/decode/(arriving_plane|frame_assembly|frame_decoder|plane_decoder)\.cpp
   | /server/decode/(h264_plane|jpeg_plane|predicted_plane|zstd_plane)\.cpp
   | /server/core/messages/eye_poses_from_proto\.cpp
   | /server/rpc/(frame_from_proto|stream_name)\.cpp
@@ -62,7 +62,7 @@ OTHERS = re.compile(r"""
   | /server/core/display/(video_stack|views_outside)\.cpp
   | /server/core/frame/plane_encoding\.cpp
   | /server/core/video/(still_pictures|video_encoder|view_colors)\.cpp
-  | /server/decode/(frame_intake|keep_motion|pack_surface)\.cpp
+  | /server/decode/(frame_intake|keep_motion|pack_surface|rgb_to_rgba|stream_queue)\.cpp
   | /server/rpc/(asked_picture|atlas_messages|atlas_outbox|bidi_call|call_access)\.cpp
   | /server/rpc/(layout_to_proto|peer_host|publish_offer|publish_place|report_to_proto)\.cpp
   | /server/rpc/(source_wants|status_to_grpc|tls_credentials|used_rate|wanted_message)\.cpp
