@@ -66,14 +66,13 @@ std::optional<ChunkHead> readHead(CodedInputStream& input, size_t message_bytes)
 }
 
 // Piece by piece, each where gRPC has received it.
-void appendRest(CodedInputStream& input, int left_bytes, FrameAssembly& assembly) {
+void appendRest(CodedInputStream& input, size_t left_bytes, FrameAssembly& assembly) {
   while (left_bytes > 0) {
     const void* piece = nullptr;
     int piece_bytes = 0;
-    VIEWLOOM_CHECK(input.GetDirectBufferPointer(&piece, &piece_bytes));
-    VIEWLOOM_CHECK(piece_bytes <= left_bytes && input.Skip(piece_bytes));
+    VIEWLOOM_CHECK(input.GetDirectBufferPointer(&piece, &piece_bytes) && input.Skip(piece_bytes));
     assembly.append({static_cast<const uint8_t*>(piece), static_cast<size_t>(piece_bytes)});
-    left_bytes -= piece_bytes;
+    left_bytes -= static_cast<size_t>(piece_bytes);
   }
 }
 
