@@ -23,7 +23,7 @@ struct Coded {
   double psnr_db = 0;    // of luma
   double encode_ms = 0;  // CPU time of all threads
   double decode_ms = 0;  // the same, until RGB of the whole atlas
-  // Of video: CPU time of OpenH264 alone, without colours. No decoder with it takes less.
+  // CPU time of OpenH264 alone, without colours, for video: no decoder with it takes less.
   double library_ms = 0;
 };
 
