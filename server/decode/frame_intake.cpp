@@ -29,6 +29,7 @@ namespace viewloom {
 namespace {
 
 // A thread whose work was ended by an exception tries again after it: memory comes back with time.
+// It sleeps on nothing that wakes one thread for a frame.
 constexpr std::chrono::milliseconds kRetryPause{50};
 constexpr std::chrono::seconds kLogPause{1};
 
@@ -76,10 +77,10 @@ struct FrameIntake::State {
         is_open = false;
       } catch (const std::bad_alloc&) {
         noteNoMemory();
-        pause();
+        std::this_thread::sleep_for(kRetryPause);
       } catch (const std::exception& thrown) {
         noteThrown("decoding", thrown);
-        pause();
+        std::this_thread::sleep_for(kRetryPause);
       }
     }
   }
@@ -91,11 +92,6 @@ struct FrameIntake::State {
     } catch (const std::exception&) {
       // No memory to say it.
     }
-  }
-
-  void pause() {
-    std::unique_lock lock(mutex);
-    work.wait_for(lock, kRetryPause, [this] { return closed; });
   }
 
   void decodeUntilClosed(PlaneDecoder& decoder) {
