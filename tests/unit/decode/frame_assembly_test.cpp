@@ -107,7 +107,8 @@ TEST_F(FrameAssemblyTest, widensRgbWhereverItIsCut) {
   const std::string wire = "abcdefghijklmnopqr";
   for (size_t chunk_bytes = 1; chunk_bytes <= wire.size(); ++chunk_bytes) {
     for (size_t piece_bytes = 1; piece_bytes <= chunk_bytes; ++piece_bytes) {
-      FrameAssembly assembly(format, pool_);
+      BytePool pool(0);  // so that no buffer holds the bytes of another turn
+      FrameAssembly assembly(format, pool);
       EXPECT_TRUE(assembly.addChunk(0, 0, "abcdef").ok());
       for (size_t at = 0; at < wire.size(); at += chunk_bytes) {
         std::string chunk = wire.substr(at, chunk_bytes);
@@ -130,6 +131,27 @@ TEST_F(FrameAssemblyTest, widensRgbWhereverItIsCut) {
       EXPECT_EQ(kept.wire_bytes, 24U);
     }
   }
+}
+
+TEST_F(FrameAssemblyTest, widensEveryPlaneOfRgb) {
+  FrameFormat format = twoPlanes();
+  LayerFormat& layer = format.sources[0].layers[0];
+  layer.others.push_back({.kind = PlaneKind::kSpecular,
+                          .encoding = PlaneEncoding::kRgb8,
+                          .size_px = {2, 1},
+                          .stride_bytes = 6,  // as wide as its pixels
+                          .wire_bytes = 6});
+  FrameAssembly assembly(format, pool_);
+  EXPECT_TRUE(assembly.addChunk(0, 0, "abcdef").ok());
+  EXPECT_TRUE(assembly.addChunk(1, 0, "ghij").ok());
+  EXPECT_TRUE(assembly.addChunk(2, 0, "klmnop").ok());
+  const CollectedFrame frame = assembly.take();
+  EXPECT_EQ(std::string(frame.planes[2]->begin(), frame.planes[2]->end()),
+            "klm\xff"
+            "nop\xff");
+  const PlaneFormat& kept = frame.format.sources[0].layers[0].others[0];
+  EXPECT_EQ(kept.encoding, PlaneEncoding::kRgba8);
+  EXPECT_EQ(kept.stride_bytes, 0U);
 }
 
 TEST_F(FrameAssemblyTest, keepsRgbWithGapsAsItComes) {

@@ -84,8 +84,8 @@ TEST(UnwantedFrames, asksAgainAboutAStreamOnceItMayBeWantedAndNotBefore) {
   EXPECT_EQ(sink.askedCount("a"), 1);
   intake.resume("a");
   while (sink.askedCount("a") < 2) std::this_thread::yield();
+  EXPECT_TRUE(intake.forget("a") && intake.forget("b")) << "waits until the sink is not asked";
   EXPECT_EQ(sink.askedCount("b"), 1);
-  EXPECT_TRUE(intake.forget("a") && intake.forget("b"));
 }
 
 // Has no memory to know whether it wants a frame.

@@ -89,6 +89,8 @@ class FrameEntranceTest : public testing::Test {
   uint64_t ringCount() const { return ring_count_; }  // of the builders
   bool knock(const std::string& name) { return entrance_.wantsFrame(name); }
   bool letIn(const std::string& name) { return entrance_.letIn(*streams_.open(name)); }
+  void forget(const std::string& name) { entrance_.forget(name); }
+  bool isAskedFor(const std::string& name) const { return asks_for_.contains(name); }
 
   ManualClock clock_;
   bool takes_all_ = false;     // a server that builds each frame when it comes
@@ -270,6 +272,16 @@ TEST_F(FrameEntranceTest, hasBuildersLookWhereNoMemoryTellsWhetherAFrameComesIn)
   EXPECT_EQ(ringCount(), 1u);
   EXPECT_TRUE(letIn("stream"));
   EXPECT_TRUE(knock("stream"));
+}
+
+// A frame that came while its stream was being forgotten has knocked at a door that is gone.
+TEST_F(FrameEntranceTest, asksForTheFrameOfAStreamThatIsForgotten) {
+  lacks_memory_ = true;
+  EXPECT_FALSE(knock("stream"));
+  EXPECT_FALSE(isAskedFor("stream"));
+  forget("stream");
+  EXPECT_TRUE(isAskedFor("stream"));
+  EXPECT_TRUE(!knock("stream") && letIn("stream"));
 }
 
 TEST_F(FrameEntranceTest, goesOnAfterFramesThatDoNotDecode) {
