@@ -26,7 +26,7 @@ NEW_SHARE_MAX = 0.1
 
 class ReceiveMemory(unittest.TestCase):
     def setUp(self):
-        # What warms up takes memory meanwhile.
+        # A warm-up takes memory meanwhile.
         self.server = viewloomd.Viewloomd(options=("--pipeline.warm_up", "false"))
         self.addCleanup(self.server.stop)
         folder = tempfile.TemporaryDirectory()
