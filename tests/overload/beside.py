@@ -20,7 +20,7 @@ MIB = 1 << 20
 WARM_UP_S = 180
 QUIET_SHARE = 0.1  # of one core: the warm-up is over
 ALONE_S = 3.0
-LOAD_USED_S = 5.0
+LOAD_USED_S = 3.0
 FIRST_SHARE = 0.2  # of the time with eight clients, until all have begun
 # Some 8 times the engine time of its share, at 10 Hz.
 SECOND = loads.quilt(4096)
@@ -87,8 +87,8 @@ class Scene:
                   f"{session.refusals() or 'nothing'}", flush=True)
 
     def use_every_load(self):
-        """Each for a while: some ask for kernels of their own, which stay."""
-        for load in dict.fromkeys((*loads.SINGLE, *loads.EIGHT)):
+        """Each for a moment: some ask for kernels of their own, which stay."""
+        for load in loads.EIGHT:
             with Session(self.address, self.tokens[0], "every-load") as session:
                 load(session)
                 time.sleep(LOAD_USED_S)
