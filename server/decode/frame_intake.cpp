@@ -29,7 +29,7 @@ namespace viewloom {
 namespace {
 
 // A thread whose work was ended by an exception tries again after it: memory comes back with time.
-// It sleeps on nothing that wakes one thread for a frame.
+// It does not wait for work meanwhile: it would take the wake-up of a thread that can decode.
 constexpr std::chrono::milliseconds kRetryPause{50};
 constexpr std::chrono::seconds kLogPause{1};
 
