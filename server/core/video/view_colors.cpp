@@ -13,27 +13,34 @@
 namespace viewloom {
 namespace {
 
-// Chroma of a view at the size of its luma. The nearer row and the nearer sample of a row count
-// three times as much as the others (centres of 4:2:0 as in JPEG), as libjpeg interpolates it.
+// Rows of a view that are widened and converted at a time: their chroma stays in the cache, and the
+// library is set up seldom. A Portrait quilt takes 19 ms as a whole, 17 by 8 rows, 14 by 16, 11.5
+// by 64.
+constexpr size_t kStripe_rows = 64;
+
+// Chroma of a stripe of a view at the size of its luma. The nearer row and the nearer sample of a
+// row count three times as much as the others (centres of 4:2:0 as in JPEG), as libjpeg
+// interpolates it.
 class WideChroma {
  public:
   explicit WideChroma(SizePx view_px)
       : count_((view_px.width + 1) / 2),
         row_count_((view_px.height + 1) / 2),
-        height_px_(view_px.height),
         columns_(count_ + 2),
-        samples_(std::make_unique_for_overwrite<uint8_t[]>(2 * count_ * view_px.height)) {}
+        samples_(std::make_unique_for_overwrite<uint8_t[]>(2 * count_ * kStripe_rows)) {}
 
   size_t strideBytes() const { return 2 * count_; }
   const uint8_t* samples() const { return samples_.get(); }
 
-  void read(const uint8_t* plane, size_t stride_bytes) {
-    for (size_t y = 0; y < height_px_; ++y) {
+  // plane: of the whole view. Rows are those of luma; kStripe_rows at most.
+  void read(const uint8_t* plane, size_t stride_bytes, size_t first_row, size_t row_count) {
+    for (size_t row = 0; row < row_count; ++row) {
+      const size_t y = first_row + row;
       const size_t near = y / 2;
       const size_t far = y % 2 == 0 ? near - std::min<size_t>(near, 1)  //
                                     : std::min(near + 1, row_count_ - 1);
       mix(plane + near * stride_bytes, plane + far * stride_bytes);
-      widen(samples_.get() + y * strideBytes());
+      widen(samples_.get() + row * strideBytes());
     }
   }
 
@@ -56,7 +63,6 @@ class WideChroma {
 
   const size_t count_;  // of samples in a row
   const size_t row_count_;
-  const size_t height_px_;
   std::vector<uint16_t> columns_;
   const std::unique_ptr<uint8_t[]> samples_;
 };
@@ -70,18 +76,22 @@ void writeColors(const VideoPicture& picture, const PictureCell& cell, TJPF form
   const size_t chroma_origin = size_t{cell.y_px / 2} * picture.chroma_stride_bytes + cell.x_px / 2;
   WideChroma cb(view_px);
   WideChroma cr(view_px);
-  cb.read(picture.cb + chroma_origin, picture.chroma_stride_bytes);
-  cr.read(picture.cr + chroma_origin, picture.chroma_stride_bytes);
-  const unsigned char* planes[] = {
-      picture.y + size_t{cell.y_px} * picture.y_stride_bytes + cell.x_px, cb.samples(),
-      cr.samples()};
   const int strides[] = {int(picture.y_stride_bytes), int(cb.strideBytes()), int(cr.strideBytes())};
   const std::unique_ptr<void, int (*)(void*)> turbojpeg(tjInitDecompress(), tjDestroy);
-  // Nothing but a lack of memory is left that could fail.
-  if (!turbojpeg ||
-      tjDecodeYUVPlanes(turbojpeg.get(), planes, strides, TJSAMP_444, pixels, int(view_px.width),
-                        int(stride_bytes), int(view_px.height), format, 0) != 0) {
-    throw std::bad_alloc();
+  if (!turbojpeg) throw std::bad_alloc();
+  for (size_t first = 0; first < view_px.height; first += kStripe_rows) {
+    const size_t row_count = std::min(kStripe_rows, view_px.height - first);
+    cb.read(picture.cb + chroma_origin, picture.chroma_stride_bytes, first, row_count);
+    cr.read(picture.cr + chroma_origin, picture.chroma_stride_bytes, first, row_count);
+    const unsigned char* planes[] = {
+        picture.y + (cell.y_px + first) * picture.y_stride_bytes + cell.x_px, cb.samples(),
+        cr.samples()};
+    // Nothing but a lack of memory is left that could fail.
+    if (tjDecodeYUVPlanes(turbojpeg.get(), planes, strides, TJSAMP_444,
+                          pixels + first * stride_bytes, int(view_px.width), int(stride_bytes),
+                          int(row_count), format, 0) != 0) {
+      throw std::bad_alloc();
+    }
   }
 }
 
