@@ -8,7 +8,8 @@ namespace viewloom {
 
 // Makes the C library keep freed memory for the next use. By default, glibc returns the memory of
 // each received message to the system and fetches it again for the next one, page by page. In a
-// server that receives frames, that takes most of the CPU time (tests/performance.md). Call once,
+// server that receives frames, that takes most of the CPU time (tests/performance.md). Makes
+// threads share few heaps, so that fewer pages stay of which only a part is in use. Call once,
 // before other threads begin. Does nothing with other C libraries.
 void keepFreedMemory();
 
