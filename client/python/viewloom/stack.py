@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import os
+from concurrent.futures import ThreadPoolExecutor
 from typing import Any, Iterable, Iterator, Optional, Sequence, TypeVar
 
 import numpy as np
@@ -19,6 +21,8 @@ from viewloom.v1.display_service_pb2 import AtlasHeader
 _Sample = TypeVar("_Sample", bound=np.generic)
 # Pixels of all pictures together; decoded, each takes 1.5 bytes. As the client in C++.
 _STACK_AREA_MAX_PX = 1 << 29
+# Pillow lets other threads of Python run while it converts; beyond this, they wait for each other.
+_THREAD_COUNT_MAX = 8
 
 
 def _check(layout: AtlasLayout) -> VideoStack:
@@ -84,15 +88,21 @@ def painted(pictures: Iterable[tuple[int, h264.Picture]],
             layout: AtlasLayout) -> NDArray[np.uint8]:
     """uint8[height_px][width_px][3], sRGB, of all views; read-only. Raises DATA_LOSS.
 
-    pictures: with their numbers in the stack, in any order.
+    pictures: with their numbers in the stack, in any order. Views are converted on several threads.
     """
     video, tile = _check(layout), layout.tile_size
     whole = np.zeros((layout.size.height, layout.size.width, 3), np.uint8)
-    for index, picture in pictures:
-        for view in range(index, layout.view_count, video.picture_count):
-            _, left, top = _cell(video, view)
-            view_window(whole, layout, view)[:] = _view_rgb(picture, left, top, tile.width,
-                                                            tile.height)
+
+    def paint(picture: h264.Picture, view: int) -> None:
+        _, left, top = _cell(video, view)
+        view_window(whole, layout, view)[:] = _view_rgb(picture, left, top, tile.width, tile.height)
+
+    # The next picture is decoded meanwhile.
+    with ThreadPoolExecutor(min(_THREAD_COUNT_MAX, os.cpu_count() or 1)) as threads:
+        views = [threads.submit(paint, picture, view) for index, picture in pictures
+                 for view in range(index, layout.view_count, video.picture_count)]
+    for view in views:
+        view.result()  # raises what it raised
     whole.flags.writeable = False
     return whole
 
