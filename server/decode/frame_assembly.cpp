@@ -5,6 +5,7 @@
 
 #include "base/check.h"
 #include "base/str_cat.h"
+#include "base/thread_time.h"
 #include "frame/limits.h"
 #include "frame/plane_encoding.h"
 
@@ -74,6 +75,7 @@ absl::Status FrameAssembly::beginChunk(uint32_t plane_index, uint64_t offset_byt
   }
   if (!arriving_) arriving_.emplace(plane, pool_);
   awaited_bytes_ = size_bytes;
+  chunk_begun_ns_ = threadTimeNs();
   return absl::OkStatus();
 }
 
@@ -81,6 +83,7 @@ void FrameAssembly::append(std::span<const uint8_t> bytes) {
   VIEWLOOM_CHECK(bytes.size() <= awaited_bytes_);
   arriving_->append(bytes);
   awaited_bytes_ -= bytes.size();
+  if (awaited_bytes_ == 0) arrival_ns_ += threadTimeNs() - chunk_begun_ns_;
   if (collectedBytes() < declared_[due_plane_]->wire_bytes) return;
   planes_.push_back(arriving_->take());
   arriving_.reset();
@@ -110,7 +113,10 @@ CollectedFrame FrameAssembly::take() {
       for (PlaneFormat& other : layer.others) describeAsKept(other);
     }
   }
-  return {.format = std::move(format_), .planes = std::move(planes_), .memory = std::move(memory_)};
+  return {.format = std::move(format_),
+          .planes = std::move(planes_),
+          .memory = std::move(memory_),
+          .arrival_ns = arrival_ns_};
 }
 
 }  // namespace viewloom

@@ -27,6 +27,7 @@ struct CollectedFrame {
   uint64_t session = 0;             // see FrameOrigin
   std::string publisher{};          // see Frame
   Reservation memory{};             // of the planes; goes on with the decoded frame
+  int64_t arrival_ns = 0;           // CPU time of putting its chunks in place
 };
 
 // The declared planes in the order in which their chunks come.
@@ -39,9 +40,9 @@ class FrameAssembly {
   // comes. `memory`: of all planes, from now on (admission/frame_price.h).
   FrameAssembly(FrameFormat format, BytePool& pool, Reservation memory = {});
 
-  // Before the next chunk: append() then brings all its bytes, in any pieces, and nothing else may
-  // be called in between. Errors are INVALID_ARGUMENT and name chunk.plane_index,
-  // chunk.offset_bytes or chunk.data; the assembly is of no use afterwards.
+  // Before the next chunk: append() then brings all its bytes, in any pieces and on the same
+  // thread, and nothing else may be called in between. Errors are INVALID_ARGUMENT and name
+  // chunk.plane_index, chunk.offset_bytes or chunk.data; the assembly is of no use afterwards.
   absl::Status beginChunk(uint32_t plane_index, uint64_t offset_bytes, uint64_t size_bytes);
   void append(std::span<const uint8_t> bytes);
   // Both for a chunk at hand.
@@ -66,6 +67,8 @@ class FrameAssembly {
   size_t due_plane_ = 0;                      // the one behind them
   std::optional<ArrivingPlane> arriving_;     // that one, from its first chunk on
   uint64_t awaited_bytes_ = 0;                // of the chunk that has begun
+  int64_t chunk_begun_ns_ = 0;                // CPU time of its thread at that moment
+  int64_t arrival_ns_ = 0;                    // CPU time of all chunks before it
 };
 
 }  // namespace viewloom

@@ -48,7 +48,10 @@ struct OpenFrame {
         unfinished_count(planes.size()) {}
 
   // Formats of planes stay where they are when their frame is moved.
-  void begin(WaitingFrame waiting) { frame = std::move(waiting); }
+  void begin(WaitingFrame waiting) {
+    spent_ns = waiting.collected.arrival_ns;
+    frame = std::move(waiting);
+  }
 
   const FrameOrigin origin;
   WaitingFrame frame;
@@ -57,7 +60,7 @@ struct OpenFrame {
   const bool is_large;
   size_t claimed_count = 0;  // guarded by the intake's mutex, as the next
   size_t unfinished_count;
-  int64_t spent_ns = 0;  // CPU time of its planes
+  int64_t spent_ns = 0;  // CPU time of its planes, their arrival included
 };
 
 }  // namespace viewloom

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/thread_time.h"
+
 namespace viewloom::frame_assembly_test {
 namespace {
 
@@ -152,6 +154,19 @@ TEST_F(FrameAssemblyTest, widensEveryPlaneOfRgb) {
   const PlaneFormat& kept = frame.format.sources[0].layers[0].others[0];
   EXPECT_EQ(kept.encoding, PlaneEncoding::kRgba8);
   EXPECT_EQ(kept.stride_bytes, 0U);
+}
+
+TEST_F(FrameAssemblyTest, countsTheTimeOfEachChunkAlone) {
+  const int64_t begun_ns = threadTimeNs();
+  ASSERT_TRUE(assembly_.addChunk(0, 0, "abcdef").ok());
+  const int64_t between_ns = threadTimeNs();
+  while (threadTimeNs() - between_ns < 20'000'000) continue;  // what others do on this thread
+  const int64_t again_ns = threadTimeNs();
+  ASSERT_TRUE(assembly_.addChunk(1, 0, "ghij").ok());
+  const int64_t chunks_ns = threadTimeNs() - again_ns + between_ns - begun_ns;
+  const CollectedFrame frame = assembly_.take();
+  EXPECT_GT(frame.arrival_ns, 0);
+  EXPECT_LE(frame.arrival_ns, chunks_ns);
 }
 
 TEST_F(FrameAssemblyTest, keepsRgbWithGapsAsItComes) {

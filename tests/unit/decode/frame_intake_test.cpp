@@ -115,9 +115,11 @@ class LastFirstSink : public HeldSink {
   void noteDecoded(const FrameOrigin& origin, int64_t cpu_ns) override {
     EXPECT_GE(cpu_ns, 0);
     decoded.push_back(origin.stream);
+    spent_ns += cpu_ns;
   }
 
   std::vector<std::string> decoded;  // on one thread
+  int64_t spent_ns = 0;
 };
 
 TEST(FrameIntake, decodesInTheOrderOfTheSink) {
@@ -136,6 +138,18 @@ TEST(FrameIntake, decodesInTheOrderOfTheSink) {
   intake.close();
   EXPECT_EQ(sink.decoded, (std::vector<std::string>{"first", "broken", "whole"}))
       << "paid for also where it fails";
+}
+
+TEST(FrameIntake, countsTheTimeThatAFrameTookWhileItCame) {
+  LastFirstSink sink;
+  ManualClock clock;
+  BytePool pool(16);
+  FrameIntake intake(sink, clock, pool, {.thread_count = 1});
+  CollectedFrame frame = onePixel(1);
+  frame.arrival_ns = 3'600'000'000'000;
+  intake.offer("large", std::move(frame), {}, [](const FrameReport&) {});
+  intake.close();
+  EXPECT_GE(sink.spent_ns, 3'600'000'000'000);
 }
 
 TEST_F(FrameIntakeTest, putsEveryPlaneInItsPlaceWhoeverDecodesIt) {
