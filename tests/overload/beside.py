@@ -88,8 +88,9 @@ class Scene:
                   f"{session.refusals() or 'nothing'}", flush=True)
 
     def use_every_load(self):
-        """One picture of each, and more for a moment. Kernels that some ask for stay, and so do the
-        last frames of streams, which have the names that rows give them."""
+        """One picture of each, if it comes in time, and more for a moment. Kernels that some ask
+        for stay, and so do the last frames of streams, which have the names that rows give them."""
+        without = set()
         for number, load in [*enumerate(loads.EIGHT), *((0, load) for load in loads.SINGLE)]:
             with Session(self.address, self.tokens[number], f"client{number}") as session:
                 load(session)
@@ -97,6 +98,9 @@ class Scene:
                 while not session.atlases() and time.monotonic() < deadline:
                     time.sleep(0.1)
                 time.sleep(LOAD_USED_S)
+                if not session.atlases():
+                    without.add(load.__name__)
+        print(f"every load for a moment: no picture of {sorted(without) or 'none'}", flush=True)
 
     def row(self, name, its_loads, its_budget, during=time.sleep):
         """Each load has an identity of its own. during: waits for so many seconds."""
